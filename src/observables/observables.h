@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is measured while time advances. An observer says when it wants to look, looks at the
+// State and the Tally, and at the end gives its replica's numbers. It never changes a State.
+#pragma once
+
+#include "base/archive.h"
+#include "propagator/propagator.h"
+#include "results/results.h"
+#include "state/state.h"
+#include "state/tally.h"
+
+// The stage's time axis.
+typedef struct Clock {
+    double tick;          // in `unit`
+    int64_t ticks;        // in the stage
+    int64_t ticks_per_step;
+    const char *unit;     // "d^2/D0" or "d sqrt(m/kT)"
+    const char *stage;    // its name, for the results
+    bool thermostatted;   // velocities are redrawn: positions diffuse
+} Clock;
+
+typedef struct ObservableKind ObservableKind;
+
+// The first member of each observer's own struct.
+typedef struct Observer {
+    const ObservableKind *kind;
+    Clock clock;
+} Observer;
+
+struct ObservableKind {
+    const char *name;
+    const char *about; // one sentence: what it is, its source
+    OptionTable options;
+    // BAD_DATA with a sentence that ends "...; do this", before anything runs. May be NULL.
+    Status (*check)(const Settings *settings, const System *system, const Clock *clock);
+    Status (*create)(Observer **out, const Settings *settings, const State *state,
+                     const Clock *clock);
+    int64_t (*next)(const Observer *observer, int64_t after); // first tick > after to look at;
+                                                              // -1 asks for tick 0 as well;
+                                                              // INT64_MAX: no more
+    Status (*see)(Observer *observer, int64_t tick, const State *state, const Tally *tally);
+    void (*archive)(Observer *observer, Archive *archive);
+    Status (*write)(const Observer *observer, const State *state, Results *results,
+                    size_t replica);
+    void (*free)(Observer *observer);
+    size_t (*memory)(const Settings *settings, const System *system, const Clock *clock); // bytes
+};
+
+// Becomes: extern const ObservableKind observable_mean_squared_displacement; ...
+#define OBSERVABLE(id) extern const ObservableKind observable_##id;
+#include "observables/observables.def"
+#undef OBSERVABLE
+
+extern const ObservableKind *const observable_kinds[]; // NULL-ended
+const ObservableKind *observable_kind_named(const char *name);

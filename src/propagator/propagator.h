@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The seam between physics and house: everything that advances time looks like this. Time is an
+// integer count of ticks, each `tick` long; a step is a whole number of ticks, and a State at the
+// end of a step determines the future.
+#pragma once
+
+#include "base/option.h"
+#include "rng/rng.h"
+#include "state/state.h"
+#include "state/tally.h"
+
+enum { SETTINGS_SIZE = 768 };
+
+// Room for the settings struct of any kind; its OptionTable says what lies in it.
+typedef struct Settings {
+    _Alignas(16) unsigned char bytes[SETTINGS_SIZE];
+} Settings;
+
+typedef struct PropagatorKind PropagatorKind;
+
+// The first member of each propagator's own struct.
+typedef struct Propagator {
+    const PropagatorKind *kind;
+} Propagator;
+
+struct PropagatorKind {
+    const char *name;      // `dynamics.method` in the run file
+    const char *about;     // one sentence
+    const char *time_unit; // of stages run with it
+    const char *time_meaning;
+    OptionTable options;
+
+    // BAD_DATA with a sentence if this method cannot do this system with these settings.
+    Status (*check)(const Settings *settings, const System *system);
+    double (*tick)(const Settings *settings, const System *system); // in time_unit
+    int64_t (*ticks_per_step)(const Settings *settings);
+    double (*seconds_per_particle_tick)(const Settings *, const System *); // rough, for `check`
+    size_t (*memory)(const System *system); // bytes per replica
+
+    // Borrows the state until free. Draws velocities where the state has none (all zero).
+    Status (*create)(Propagator **out, const Settings *settings, State *state, RngKey key);
+    // On return the state is that of `ticks` later. advance(a), advance(b) gives the bits of
+    // advance(a + b).
+    Status (*advance)(Propagator *propagator, int64_t ticks, Tally *tally);
+    void (*free)(Propagator *propagator);
+};
+
+// Becomes: extern const PropagatorKind propagator_event_driven, propagator_newtonian;
+#define PROPAGATOR(id) extern const PropagatorKind propagator_##id;
+#include "propagator/propagators.def"
+#undef PROPAGATOR
+
+extern const PropagatorKind *const propagator_kinds[]; // NULL-ended
+const PropagatorKind *propagator_kind_named(const char *name); // NULL if none
+
+// A method and its settings, as the run file gives them.
+typedef struct Dynamics {
+    const PropagatorKind *kind;
+    Settings settings;
+} Dynamics;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is to be done, as a plain value with all defaults filled: what the run file becomes, and
+// what every output carries.
+#pragma once
+
+#include "observables/observables.h"
+#include "propagator/propagator.h"
+#include "state/system.h"
+
+enum { STAGES_MOST = 16, OBSERVATIONS_MOST = 16, TITLE_SIZE = OPTION_TEXT_SIZE };
+
+typedef struct Observation {
+    const ObservableKind *kind;
+    Settings settings;
+} Observation;
+
+typedef struct Stage {
+    char name[NAME_SIZE];
+    double time; // in the method's time_unit
+    Dynamics dynamics;
+    size_t observation_count;
+    Observation observations[OBSERVATIONS_MOST];
+} Stage;
+
+typedef struct EnsemblePlan {
+    int64_t replicas;
+    int64_t seed;
+} EnsemblePlan;
+
+typedef struct OutputPlan {
+    double trajectory_every;  // in the stage's time unit; 0: no trajectory
+    double checkpoint_every;  // wall-clock seconds
+} OutputPlan;
+
+typedef struct Plan {
+    char title[TITLE_SIZE];
+    System system;
+    Dynamics dynamics; // of stages that do not override it
+    size_t stage_count;
+    Stage stages[STAGES_MOST];
+    EnsemblePlan ensemble;
+    OutputPlan output;
+} Plan;
+
+extern const OptionTable stage_options;    // `stage`, `time` of one entry of `protocol:`
+extern const OptionTable ensemble_options;
+extern const OptionTable output_options;
+
+// The time axis of a stage: its time rounded to a whole number of steps, at least one.
+Clock plan_clock(const Plan *plan, size_t stage);
+
+// BAD_DATA with a sentence if something cannot be: method against shape, density, observations.
+Status plan_check(const Plan *plan);
+
+size_t plan_memory(const Plan *plan);  // bytes of one replica
+double plan_seconds(const Plan *plan); // rough CPU seconds of one replica

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Named numbers and arrays with axes and units, one slot per replica: what observers give, what
+// results.h5 holds, what analysis, report and `perrin show` read. Mean and standard error over
+// replicas are derived, never stored twice in memory.
+#pragma once
+
+#include "base/status.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { RESULT_NAME = 64, RESULT_TEXT = 256, RESULT_AXES = 4 };
+
+typedef struct ResultAxis {
+    const char *name;          // "time", "species", "wave_number"
+    const char *unit;          // "" for labels and pure numbers
+    size_t count;
+    const double *values;      // [count]; NULL for an axis of labels
+    const char *const *labels; // [count]; NULL for an axis of numbers
+} ResultAxis;
+
+// values[replica][axis 0][axis 1]...; NaN where a replica has no value.
+typedef struct ResultSeries {
+    char stage[RESULT_NAME];
+    char observable[RESULT_NAME];
+    char unit[RESULT_NAME];
+    char about[RESULT_TEXT];
+    size_t axes;
+    ResultAxis axis[RESULT_AXES]; // values and labels owned by the Results
+    size_t size;                  // elements per replica
+    double *values;               // [replicas][size]
+} ResultSeries;
+
+typedef struct ResultScalar {
+    char stage[RESULT_NAME];
+    char quantity[RESULT_NAME];
+    char unit[RESULT_NAME];
+    char about[RESULT_TEXT];
+    double *values; // [replicas]
+} ResultScalar;
+
+// A line of provenance or of health: text, or a number as text.
+typedef struct ResultFact {
+    char name[RESULT_NAME];
+    char *text;
+} ResultFact;
+
+typedef struct ResultCounter {
+    char name[RESULT_NAME];
+    char about[RESULT_TEXT];
+    double value; // a count, or a depth
+} ResultCounter;
+
+typedef struct Results {
+    size_t replicas;
+    size_t series_count, scalar_count, fact_count, health_count;
+    ResultSeries *series;
+    ResultScalar *scalars;
+    ResultFact *facts;      // version, commit, compiler, flags, host, seed, plan, wall time, ...
+    ResultCounter *health;
+} Results;
+
+Status results_create(Results **out, size_t replicas);
+void results_free(Results *results);
+
+// Puts one replica's values in place; the first call for a name makes the entry, with copies of
+// the axes, and fills the others with NaN. `shape` has stage, observable, unit, about, axes, axis.
+Status results_put_series(Results *results, const ResultSeries *shape, size_t replica,
+                          const double *values);
+Status results_put_scalar(Results *results, const char *stage, const char *quantity,
+                          const char *unit, const char *about, size_t replica, double value);
+Status results_put_fact(Results *results, const char *name, const char *text);
+Status results_put_health(Results *results, const char *name, const char *about, double value);
+
+const ResultSeries *results_find_series(const Results *results, const char *stage,
+                                        const char *observable); // NULL if none
+const ResultScalar *results_find_scalar(const Results *results, const char *stage,
+                                        const char *quantity);
+const char *results_find_fact(const Results *results, const char *name); // NULL if none
+
+typedef struct Estimate {
+    double value; // mean over the replicas that have a value
+    double error; // its standard error; NaN with fewer than two
+    size_t n;     // how many
+} Estimate;
+
+Estimate results_series_estimate(const Results *results, const ResultSeries *series,
+                                 size_t element);
+Estimate results_scalar_estimate(const Results *results, const ResultScalar *scalar);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The particles at one instant: structure of arrays, in the order of particle ids. It determines
+// the future: a run continued from a State has the bits of one never stopped. Only packing and
+// the propagators receive `State *`; everyone else `const State *`.
+#pragma once
+
+#include "base/archive.h"
+#include "state/system.h"
+
+typedef struct State {
+    Box box;
+    System system;       // what this is a sample of
+    size_t count;        // particles
+    uint8_t *species_of; // [count], index into system.species; sorted by species
+    double *diameter;    // [count], in d
+    double *mass;        // [count], in m
+    double *position[3]; // [3][count], folded into [0, edge), in d; z = 0 in 2D
+    double *velocity[3]; // [3][count], in sqrt(kT/m)
+    int32_t *image[3];   // [3][count], unfolded position = position + image * edge
+    int64_t step;        // thermostat intervals (or windows) since the replica began: addresses
+                         // the random numbers
+} State;
+
+// Allocates the arrays, sets box, species and masses; diameters, positions are for packing.
+Status state_create(State **out, const System *system);
+void state_free(State *state);
+
+// Unfolded coordinate along an axis, in d.
+static inline double state_unfolded(const State *state, int axis, size_t particle) {
+    return state->position[axis][particle] +
+           state->image[axis][particle] * state->box.edge[axis];
+}
+
+double state_packing_fraction(const State *state);
+void state_archive(State *state, Archive *archive); // all but the system, which the plan has
+
+// BAD_DATA or UNHEALTHY with a sentence unless all is finite and in the box.
+Status state_validate(const State *state);
+
+// The deepest overlap, as 1 - r/d_ij over all pairs; 0 if none. Linked cells, O(count); the
+// health check at output. `pairs`, if not NULL, is the number of pairs deeper than `depth`.
+Status state_deepest_overlap(const State *state, double depth, double *deepest, uint64_t *pairs);

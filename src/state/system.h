@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The suspension as the run file describes it: a plain value, before any particle exists.
+// Lengths in d, masses in units of the reference mass m, kT = 1.
+#pragma once
+
+#include "base/option.h"
+#include "base/status.h"
+#include "box/box.h"
+#include "shapes/shape.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { SPECIES_MOST = 16, NAME_SIZE = 32 };
+
+typedef enum SpreadKind { SPREAD_NONE, SPREAD_GAUSSIAN, SPREAD_UNIFORM, SPREADS } SpreadKind;
+
+typedef struct Species {
+    char name[NAME_SIZE];
+    int64_t shape;    // ShapeKind
+    double diameter;  // mean, in d
+    double mass;      // in m: D_a = thermostat_interval kT/(2 m_a)
+    double fraction;  // of all particles, by number
+    int64_t spread;   // SpreadKind of the diameters
+    double spread_width; // standard deviation over mean diameter (polydispersity)
+} Species;
+
+typedef struct System {
+    int64_t dimension; // 2 or 3
+    int64_t particles;
+    double packing_fraction; // 0 when number_density is given
+    double number_density;   // in d^-dimension; 0 when packing_fraction is given
+    double aspect[3];        // edge ratios of the box
+    size_t species_count;
+    Species species[SPECIES_MOST];
+} System;
+
+extern const OptionTable system_options;  // scalar keys of `system:`
+extern const OptionTable species_options; // keys of one entry of `system.species:`
+extern const char *const spread_names[SPREADS + 1];
+
+// How many particles of each species: largest remainders of fraction * particles, summing exactly.
+void system_counts(const System *system, size_t counts[SPECIES_MOST]);
+
+double system_mean_volume(const System *system); // per particle, spread included, in d^dimension
+double system_packing_fraction(const System *system); // whichever of the two was given
+double system_number_density(const System *system);   // in d^-dimension
+Box system_box(const System *system);
+
+// Mean of diameter^power over particles, spread included.
+double system_diameter_moment(const System *system, int power);

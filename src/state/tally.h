@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a snapshot cannot hold: sums that the propagator keeps since the stage began. Cumulative;
+// an observer takes differences.
+#pragma once
+
+#include "base/archive.h"
+
+#include <stdint.h>
+
+typedef struct Tally {
+    uint64_t collisions;    // pair collisions (each counted once)
+    double exchange[3][3];  // sum over collisions of r_a (dp)_b, r = r_i - r_j at contact, dp the
+                            // momentum given to i; in d sqrt(m kT). Positive trace.
+    uint64_t corrected;     // pairs found overlapping and approaching, collided at once
+    double deepest_contact; // the deepest of them, as 1 - r/d_ij
+    uint64_t rebuilds;      // of the neighbour list
+    uint64_t replays;       // windows replayed since a particle outran the list
+    uint64_t stale;         // predicted events voided by an earlier one
+    uint64_t windows;       // windows done
+    uint64_t non_finite;    // numbers that were not finite where one was wanted
+} Tally;
+
+// The counters `rebuilds`, `replays` and `stale` are of the machinery, not of the physics: they
+// may differ after a resume and never reach a result.
+void tally_archive(Tally *tally, Archive *archive);
+void tally_add(Tally *sum, const Tally *more);
