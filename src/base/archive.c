@@ -9,7 +9,9 @@
 #error "archives are little-endian and copied as they lie in memory"
 #endif
 
-Archive archive_writer(void) { return (Archive){.loading = false}; }
+Archive archive_writer(void) {
+    return (Archive){.loading = false};
+}
 
 Archive archive_reader(const void *bytes, size_t size) {
     return (Archive){.bytes = (unsigned char *)bytes, .size = size, .loading = true};
@@ -35,8 +37,9 @@ static bool grow(Archive *archive, size_t more) {
 
 static void load(Archive *archive, void *values, size_t size) {
     if (size > archive->size - archive->position) {
-        archive->status = status_fail(BAD_DATA, "stored state ends too early: %zu bytes wanted at "
-                                                "byte %zu of %zu",
+        archive->status = status_fail(BAD_DATA,
+                                      "stored state ends too early: %zu bytes wanted at "
+                                      "byte %zu of %zu",
                                       size, archive->position, archive->size);
         return;
     }
@@ -56,8 +59,10 @@ static void save(Archive *archive, const void *values, size_t size) {
 
 void archive_bytes(Archive *archive, void *bytes, size_t size) {
     if (archive->status != OK) return;
-    if (archive->loading) load(archive, bytes, size);
-    else save(archive, bytes, size);
+    if (archive->loading)
+        load(archive, bytes, size);
+    else
+        save(archive, bytes, size);
 }
 
 void archive_f64(Archive *archive, double *values, size_t count) {

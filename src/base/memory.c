@@ -20,4 +20,6 @@ void *memory_new(size_t count, size_t size) {
     return memset(pointer, 0, bytes);
 }
 
-void memory_free(void *pointer) { free(pointer); }
+void memory_free(void *pointer) {
+    free(pointer);
+}

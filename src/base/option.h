@@ -29,8 +29,8 @@ typedef struct OptionReals {
 typedef struct Option {
     const char *name; // a dot goes into a nested map: "times.first"
     OptionType type;
-    size_t offset;   // of the field in the settings struct
-    double fallback; // default of a number, choice, boolean or duration
+    size_t offset;      // of the field in the settings struct
+    double fallback;    // default of a number, choice, boolean or duration
     double least, most; // inclusive range of a number, of each element of a list; both 0: any
     const char *unit;   // "" for a pure number
     const char *about;  // one sentence
@@ -47,4 +47,5 @@ typedef struct OptionTable {
 } OptionTable;
 
 #define OPTION_TABLE(rows_, type_)                                                                 \
-    ((OptionTable){.rows = (rows_), .count = sizeof(rows_) / sizeof *(rows_), .size = sizeof(type_)})
+    ((OptionTable){                                                                                \
+        .rows = (rows_), .count = sizeof(rows_) / sizeof *(rows_), .size = sizeof(type_)})

@@ -37,7 +37,9 @@ Status status_fail_errno(Status code, const char *format, ...) {
     return code;
 }
 
-const char *status_sentence(void) { return sentence; }
+const char *status_sentence(void) {
+    return sentence;
+}
 
 _Noreturn void status_abort(const char *condition, const char *file, int line) {
     fprintf(stderr, "perrin: internal error: '%s' does not hold at %s:%d; please report this\n",

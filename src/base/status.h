@@ -32,6 +32,5 @@ const char *status_sentence(void);
     } while (0)
 
 // What must be true here, checked in every build: a wrong curve costs more than a comparison.
-#define ASSERT(condition)                                                                          \
-    ((condition) ? (void)0 : status_abort(#condition, __FILE__, __LINE__))
+#define ASSERT(condition) ((condition) ? (void)0 : status_abort(#condition, __FILE__, __LINE__))
 _Noreturn void status_abort(const char *condition, const char *file, int line);

@@ -13,7 +13,9 @@ Box box_of_volume(int dimension, double volume, const double aspect[3]) {
     return box;
 }
 
-double box_volume(const Box *box) { return box->edge[0] * box->edge[1] * box->edge[2]; }
+double box_volume(const Box *box) {
+    return box->edge[0] * box->edge[1] * box->edge[2];
+}
 
 void box_nearest_image(const Box *box, double separation[3]) {
     for (int a = 0; a < box->dimension; a++) {

@@ -11,12 +11,12 @@
 
 // The stage's time axis.
 typedef struct Clock {
-    double tick;          // in `unit`
-    int64_t ticks;        // in the stage
+    double tick;   // in `unit`
+    int64_t ticks; // in the stage
     int64_t ticks_per_step;
-    const char *unit;     // "d^2/D0" or "d sqrt(m/kT)"
-    const char *stage;    // its name, for the results
-    bool thermostatted;   // velocities are redrawn: positions diffuse
+    const char *unit;   // "d^2/D0" or "d sqrt(m/kT)"
+    const char *stage;  // its name, for the results
+    bool thermostatted; // velocities are redrawn: positions diffuse
 } Clock;
 
 typedef struct ObservableKind ObservableKind;
@@ -40,8 +40,7 @@ struct ObservableKind {
                                                               // INT64_MAX: no more
     Status (*see)(Observer *observer, int64_t tick, const State *state, const Tally *tally);
     void (*archive)(Observer *observer, Archive *archive);
-    Status (*write)(const Observer *observer, const State *state, Results *results,
-                    size_t replica);
+    Status (*write)(const Observer *observer, const State *state, Results *results, size_t replica);
     void (*free)(Observer *observer);
     size_t (*memory)(const Settings *settings, const System *system, const Clock *clock); // bytes
 };

@@ -9,8 +9,8 @@
 #include <stdatomic.h>
 
 typedef struct PackingReport {
-    double seconds;      // wall time it took
-    int64_t windows;     // of the growing dynamics
+    double seconds;       // wall time it took
+    int64_t windows;      // of the growing dynamics
     double lattice_scale; // of the diameters at the start
 } PackingReport;
 

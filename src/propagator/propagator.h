@@ -35,7 +35,7 @@ struct PropagatorKind {
     double (*tick)(const Settings *settings, const System *system); // in time_unit
     int64_t (*ticks_per_step)(const Settings *settings);
     double (*seconds_per_particle_tick)(const Settings *, const System *); // rough, for `check`
-    size_t (*memory)(const System *system); // bytes per replica
+    size_t (*memory)(const System *system);                                // bytes per replica
 
     // Borrows the state until free. Draws velocities where the state has none (all zero).
     Status (*create)(Propagator **out, const Settings *settings, State *state, RngKey key);
@@ -50,7 +50,7 @@ struct PropagatorKind {
 #include "propagator/propagators.def"
 #undef PROPAGATOR
 
-extern const PropagatorKind *const propagator_kinds[]; // NULL-ended
+extern const PropagatorKind *const propagator_kinds[];         // NULL-ended
 const PropagatorKind *propagator_kind_named(const char *name); // NULL if none
 
 // A method and its settings, as the run file gives them.

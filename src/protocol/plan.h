@@ -28,8 +28,8 @@ typedef struct EnsemblePlan {
 } EnsemblePlan;
 
 typedef struct OutputPlan {
-    double trajectory_every;  // in the stage's time unit; 0: no trajectory
-    double checkpoint_every;  // wall-clock seconds
+    double trajectory_every; // in the stage's time unit; 0: no trajectory
+    double checkpoint_every; // wall-clock seconds
 } OutputPlan;
 
 typedef struct Plan {
@@ -42,7 +42,7 @@ typedef struct Plan {
     OutputPlan output;
 } Plan;
 
-extern const OptionTable stage_options;    // `stage`, `time` of one entry of `protocol:`
+extern const OptionTable stage_options; // `stage`, `time` of one entry of `protocol:`
 extern const OptionTable ensemble_options;
 extern const OptionTable output_options;
 

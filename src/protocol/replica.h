@@ -30,12 +30,12 @@ int64_t plan_frames(const Plan *plan);               // of one replica, over all
 
 const State *replica_state(const Replica *replica);
 size_t replica_stage(const Replica *replica);
-double replica_stage_time(const Replica *replica); // in the stage's unit
-double replica_time(const Replica *replica);       // summed over stages, each in its unit
-double replica_progress(const Replica *replica);   // fraction of the estimated work, 0 to 1
+double replica_stage_time(const Replica *replica);  // in the stage's unit
+double replica_time(const Replica *replica);        // summed over stages, each in its unit
+double replica_progress(const Replica *replica);    // fraction of the estimated work, 0 to 1
 const Tally *replica_tally(const Replica *replica); // over all stages
 uint64_t replica_particle_steps(const Replica *replica);
-uint64_t replica_overlaps(const Replica *replica);      // at observations, deeper than the limit
+uint64_t replica_overlaps(const Replica *replica); // at observations, deeper than the limit
 double replica_deepest_overlap(const Replica *replica);
 
 // All observers' numbers, into this replica's slot.

@@ -12,8 +12,8 @@
 enum { RESULT_NAME = 64, RESULT_TEXT = 256, RESULT_AXES = 4 };
 
 typedef struct ResultAxis {
-    const char *name;          // "time", "species", "wave_number"
-    const char *unit;          // "" for labels and pure numbers
+    const char *name; // "time", "species", "wave_number"
+    const char *unit; // "" for labels and pure numbers
     size_t count;
     const double *values;      // [count]; NULL for an axis of labels
     const char *const *labels; // [count]; NULL for an axis of numbers
@@ -56,7 +56,7 @@ typedef struct Results {
     size_t series_count, scalar_count, fact_count, health_count;
     ResultSeries *series;
     ResultScalar *scalars;
-    ResultFact *facts;      // version, commit, compiler, flags, host, seed, plan, wall time, ...
+    ResultFact *facts; // version, commit, compiler, flags, host, seed, plan, wall time, ...
     ResultCounter *health;
 } Results;
 

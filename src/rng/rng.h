@@ -29,9 +29,9 @@ typedef struct Rng {
 
 Rng rng_open(RngKey key, RngStream stream, uint64_t step, uint64_t particle);
 uint64_t rng_bits(Rng *rng);
-double rng_uniform(Rng *rng);                    // in [0, 1), 53 bits
-uint64_t rng_below(Rng *rng, uint64_t bound);    // unbiased, in [0, bound)
-double rng_normal(Rng *rng);                     // mean 0, variance 1
+double rng_uniform(Rng *rng);                 // in [0, 1), 53 bits
+uint64_t rng_below(Rng *rng, uint64_t bound); // unbiased, in [0, bound)
+double rng_normal(Rng *rng);                  // mean 0, variance 1
 
 // For the hot path: `components` (2 or 3) independent standard normal numbers for each of `count`
 // particles at one step; component a of particle ids[i] goes to normals[a][i], a pure function of

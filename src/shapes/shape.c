@@ -33,8 +33,7 @@ double shape_densest_packing(ShapeKind shape) {
 }
 
 static double ball_volume(int dimension, double diameter) {
-    return dimension == 2 ? PI / 4 * diameter * diameter
-                          : PI / 6 * diameter * diameter * diameter;
+    return dimension == 2 ? PI / 4 * diameter * diameter : PI / 6 * diameter * diameter * diameter;
 }
 
 double shape_volume(ShapeKind shape, double diameter) {

@@ -12,7 +12,7 @@ typedef enum ShapeKind {
 
 extern const char *const shape_names[SHAPES + 1]; // NULL-ended
 int shape_dimension(ShapeKind shape);
-double shape_densest_packing(ShapeKind shape); // packing fraction of equal particles
+double shape_densest_packing(ShapeKind shape);         // packing fraction of equal particles
 double shape_volume(ShapeKind shape, double diameter); // an area in 2D
 
 // Second virial coefficient of the pair of diameters a and b: half the excluded volume, in d^dim.

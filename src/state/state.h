@@ -27,8 +27,7 @@ void state_free(State *state);
 
 // Unfolded coordinate along an axis, in d.
 static inline double state_unfolded(const State *state, int axis, size_t particle) {
-    return state->position[axis][particle] +
-           state->image[axis][particle] * state->box.edge[axis];
+    return state->position[axis][particle] + state->image[axis][particle] * state->box.edge[axis];
 }
 
 double state_packing_fraction(const State *state);

@@ -17,11 +17,11 @@ typedef enum SpreadKind { SPREAD_NONE, SPREAD_GAUSSIAN, SPREAD_UNIFORM, SPREADS 
 
 typedef struct Species {
     char name[NAME_SIZE];
-    int64_t shape;    // ShapeKind
-    double diameter;  // mean, in d
-    double mass;      // in m: D_a = thermostat_interval kT/(2 m_a)
-    double fraction;  // of all particles, by number
-    int64_t spread;   // SpreadKind of the diameters
+    int64_t shape;       // ShapeKind
+    double diameter;     // mean, in d
+    double mass;         // in m: D_a = thermostat_interval kT/(2 m_a)
+    double fraction;     // of all particles, by number
+    int64_t spread;      // SpreadKind of the diameters
     double spread_width; // standard deviation over mean diameter (polydispersity)
 } Species;
 
@@ -30,7 +30,7 @@ typedef struct System {
     int64_t particles;
     double packing_fraction; // 0 when number_density is given
     double number_density;   // in d^-dimension; 0 when packing_fraction is given
-    double aspect[3];        // edge ratios of the box
+    OptionReals aspect;      // edge ratios of the box; empty: all edges equal
     size_t species_count;
     Species species[SPECIES_MOST];
 } System;
@@ -47,5 +47,6 @@ double system_packing_fraction(const System *system); // whichever of the two wa
 double system_number_density(const System *system);   // in d^-dimension
 Box system_box(const System *system);
 
-// Mean of diameter^power over particles, spread included.
+// Mean of diameter^power over particles, spread included; power 1, 2 or 3 (both kinds of spread are
+// symmetric, so these depend on the width alone).
 double system_diameter_moment(const System *system, int power);

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Arrays of particles: making, saving, checking.
+#include "state/state.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+static Status allocate(State *state) {
+    TRY(NEW_ARRAY(state->species_of, state->count));
+    TRY(NEW_ARRAY(state->diameter, state->count));
+    TRY(NEW_ARRAY(state->mass, state->count));
+    for (int a = 0; a < 3; a++) {
+        TRY(NEW_ARRAY(state->position[a], state->count));
+        TRY(NEW_ARRAY(state->velocity[a], state->count));
+        TRY(NEW_ARRAY(state->image[a], state->count));
+    }
+    return OK;
+}
+
+Status state_create(State **out, const System *system) {
+    State *state = NULL;
+    TRY(NEW(state));
+    *state =
+        (State){.box = system_box(system), .system = *system, .count = (size_t)system->particles};
+    const Status status = allocate(state);
+    if (status != OK) {
+        state_free(state);
+        return status;
+    }
+    size_t counts[SPECIES_MOST];
+    system_counts(system, counts);
+    size_t particle = 0;
+    for (size_t s = 0; s < system->species_count; s++) {
+        for (size_t k = 0; k < counts[s]; k++, particle++) {
+            state->species_of[particle] = (uint8_t)s;
+            state->mass[particle] = system->species[s].mass;
+        }
+    }
+    *out = state;
+    return OK;
+}
+
+void state_free(State *state) {
+    if (!state) return;
+    memory_free(state->species_of);
+    memory_free(state->diameter);
+    memory_free(state->mass);
+    for (int a = 0; a < 3; a++) {
+        memory_free(state->position[a]);
+        memory_free(state->velocity[a]);
+        memory_free(state->image[a]);
+    }
+    memory_free(state);
+}
+
+double state_packing_fraction(const State *state) {
+    double filled = 0;
+    for (size_t i = 0; i < state->count; i++) {
+        const Species *species = &state->system.species[state->species_of[i]];
+        filled += shape_volume((ShapeKind)species->shape, state->diameter[i]);
+    }
+    return filled / box_volume(&state->box);
+}
+
+static const uint64_t STATE_TAG = 0x5354415445303031; // "STATE001"
+
+void state_archive(State *state, Archive *archive) {
+    uint64_t count = state->count;
+    archive_tag(archive, STATE_TAG);
+    archive_u64(archive, &count, 1);
+    archive_require(archive, count == state->count, "it has another number of particles");
+    archive_f64(archive, state->diameter, state->count);
+    for (int a = 0; a < state->box.dimension; a++) {
+        archive_f64(archive, state->position[a], state->count);
+        archive_f64(archive, state->velocity[a], state->count);
+        archive_i32(archive, state->image[a], state->count);
+    }
+    archive_i64(archive, &state->step, 1);
+    archive_require(archive, state->step >= 0, "its step count is negative");
+    if (archive->loading && archive->status == OK && state_validate(state) != OK) {
+        archive->status = BAD_DATA;
+    }
+}
+
+Status state_validate(const State *state) {
+    for (size_t i = 0; i < state->count; i++) {
+        for (int a = 0; a < state->box.dimension; a++) {
+            const double x = state->position[a][i];
+            if (!(x >= 0 && x <= state->box.edge[a]) || !isfinite(state->velocity[a][i])) {
+                return status_fail(UNHEALTHY,
+                                   "particle %zu: coordinate %c = %g (box edge %g), velocity %g: "
+                                   "not finite or not in the box",
+                                   i, 'x' + a, x, state->box.edge[a], state->velocity[a][i]);
+            }
+        }
+        if (!(state->diameter[i] > 0 && isfinite(state->diameter[i]))) {
+            return status_fail(UNHEALTHY, "particle %zu: diameter %g is not a positive number", i,
+                               state->diameter[i]);
+        }
+    }
+    return OK;
+}

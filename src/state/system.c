@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The suspension as a value: option tables, and what follows from it before there are particles.
+#include "state/system.h"
+
+#include "base/constants.h"
+
+#include <math.h>
+
+const char *const spread_names[SPREADS + 1] = {"none", "gaussian", "uniform", NULL};
+
+static const Option system_rows[] = {
+    {"dimension", OPTION_INTEGER, offsetof(System, dimension), 0, 2, 3, "", "Dimension of space.",
+     .required = 1},
+    {"particles", OPTION_INTEGER, offsetof(System, particles), 0, 2, 1e8, "",
+     "Number of particles of one replica.", .required = 1},
+    {"packing_fraction", OPTION_REAL, offsetof(System, packing_fraction), 0, 0, 1, "",
+     "Fraction of the volume (area in 2D) that the particles fill; give this or number_density."},
+    {"number_density", OPTION_REAL, offsetof(System, number_density), 0, 0, 100, "d^-dimension",
+     "Particles per volume (area in 2D); give this or packing_fraction."},
+    {"box.aspect", OPTION_REALS, offsetof(System, aspect), 0, 0.01, 100, "",
+     "Ratios of the edges of the periodic box, one number per dimension; all equal by default."},
+};
+const OptionTable system_options = {system_rows, sizeof system_rows / sizeof *system_rows,
+                                    sizeof(System)};
+
+static const Option species_rows[] = {
+    {"shape", OPTION_CHOICE, offsetof(Species, shape), 0, 0, 0, "", "Shape of the particles.",
+     shape_names, .required = 1},
+    {"diameter", OPTION_REAL, offsetof(Species, diameter), 1, 0.01, 100, "d",
+     "Diameter; the mean if the sizes are spread."},
+    {"mass", OPTION_REAL, offsetof(Species, mass), 1, 1e-6, 1e6, "m",
+     "Mass; the free diffusion coefficient of a species is inversely proportional to it."},
+    {"fraction", OPTION_REAL, offsetof(Species, fraction), 1, 0, 1, "",
+     "Share of this species in the number of particles; the shares add to 1."},
+    {"spread.distribution", OPTION_CHOICE, offsetof(Species, spread), SPREAD_NONE, 0, 0, "",
+     "Distribution of the diameters of a polydisperse species.", spread_names},
+    {"spread.width", OPTION_REAL, offsetof(Species, spread_width), 0, 0, 0.3, "",
+     "Polydispersity: standard deviation of the diameters over their mean."},
+};
+const OptionTable species_options = {species_rows, sizeof species_rows / sizeof *species_rows,
+                                     sizeof(Species)};
+
+void system_counts(const System *system, size_t counts[SPECIES_MOST]) {
+    double remainder[SPECIES_MOST];
+    size_t placed = 0;
+    for (size_t s = 0; s < system->species_count; s++) {
+        const double share = system->species[s].fraction * (double)system->particles;
+        counts[s] = (size_t)floor(share);
+        remainder[s] = share - floor(share);
+        placed += counts[s];
+    }
+    for (; placed < (size_t)system->particles; placed++) {
+        size_t most = 0;
+        for (size_t s = 1; s < system->species_count; s++) {
+            if (remainder[s] > remainder[most]) most = s;
+        }
+        counts[most]++;
+        remainder[most] = -1;
+    }
+}
+
+double system_diameter_moment(const System *system, int power) {
+    ASSERT(power >= 1 && power <= 3);
+    static const double spread_factor[4] = {0, 0, 1, 3}; // <(1 + w x)^p> - 1 over w^2, x odd-free
+    size_t counts[SPECIES_MOST];
+    system_counts(system, counts);
+    double sum = 0;
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Species *species = &system->species[s];
+        const double width = species->spread == SPREAD_NONE ? 0 : species->spread_width;
+        double moment = 1 + spread_factor[power] * width * width;
+        for (int p = 0; p < power; p++) moment *= species->diameter;
+        sum += (double)counts[s] * moment;
+    }
+    return sum / (double)system->particles;
+}
+
+double system_mean_volume(const System *system) {
+    const ShapeKind ball = system->dimension == 2 ? SHAPE_DISC : SHAPE_SPHERE;
+    return shape_volume(ball, 1) * system_diameter_moment(system, (int)system->dimension);
+}
+
+double system_packing_fraction(const System *system) {
+    if (system->packing_fraction > 0) return system->packing_fraction;
+    return system->number_density * system_mean_volume(system);
+}
+
+double system_number_density(const System *system) {
+    if (system->number_density > 0) return system->number_density;
+    return system->packing_fraction / system_mean_volume(system);
+}
+
+Box system_box(const System *system) {
+    double aspect[3] = {1, 1, 1};
+    for (int64_t a = 0; a < system->aspect.count && a < 3; a++) {
+        aspect[a] = system->aspect.values[a];
+    }
+    const double volume = (double)system->particles / system_number_density(system);
+    return box_of_volume((int)system->dimension, volume, aspect);
+}

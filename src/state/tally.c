@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Saving and adding tallies.
+#include "state/tally.h"
+
+#include <math.h>
+
+void tally_archive(Tally *tally, Archive *archive) {
+    archive_u64(archive, &tally->collisions, 1);
+    archive_f64(archive, &tally->exchange[0][0], 9);
+    archive_u64(archive, &tally->corrected, 1);
+    archive_f64(archive, &tally->deepest_contact, 1);
+    archive_u64(archive, &tally->rebuilds, 1);
+    archive_u64(archive, &tally->replays, 1);
+    archive_u64(archive, &tally->stale, 1);
+    archive_u64(archive, &tally->windows, 1);
+    archive_u64(archive, &tally->non_finite, 1);
+}
+
+void tally_add(Tally *sum, const Tally *more) {
+    sum->collisions += more->collisions;
+    for (int a = 0; a < 3; a++) {
+        for (int b = 0; b < 3; b++) sum->exchange[a][b] += more->exchange[a][b];
+    }
+    sum->corrected += more->corrected;
+    sum->deepest_contact = fmax(sum->deepest_contact, more->deepest_contact);
+    sum->rebuilds += more->rebuilds;
+    sum->replays += more->replays;
+    sum->stale += more->stale;
+    sum->windows += more->windows;
+    sum->non_finite += more->non_finite;
+}
