@@ -32,7 +32,9 @@ struct PropagatorKind {
 
     // BAD_DATA with a sentence if this method cannot do this system with these settings.
     Status (*check)(const Settings *settings, const System *system);
+    bool thermostatted; // velocities are redrawn, so that positions diffuse
     double (*tick)(const Settings *settings, const System *system); // in time_unit
+    double (*flight_time)(const Settings *settings);                // of a tick, in d sqrt(m/kT)
     int64_t (*ticks_per_step)(const Settings *settings);
     double (*seconds_per_particle_tick)(const Settings *, const System *); // rough, for `check`
     size_t (*memory)(const System *system);                                // bytes per replica

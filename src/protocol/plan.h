@@ -15,7 +15,7 @@ typedef struct Observation {
 } Observation;
 
 typedef struct Stage {
-    char name[NAME_SIZE];
+    char name[OPTION_TEXT_SIZE];
     double time; // in the method's time_unit
     Dynamics dynamics;
     size_t observation_count;

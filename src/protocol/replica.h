@@ -23,9 +23,10 @@ Status replica_advance(Replica *replica);
 bool replica_can_save(const Replica *replica); // at the end of a step
 void replica_save(Replica *replica, Archive *archive);
 
-// A trajectory frame is due now (each is due once).
+// A trajectory frame is due now; `taken` when it has been written.
 bool replica_frame_due(const Replica *replica);
-int64_t replica_frames_done(const Replica *replica); // due so far, over all stages
+void replica_frame_taken(Replica *replica);
+int64_t replica_frames_done(const Replica *replica); // taken so far, over all stages
 int64_t plan_frames(const Plan *plan);               // of one replica, over all stages
 
 const State *replica_state(const Replica *replica);

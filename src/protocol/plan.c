@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a Plan means: option tables, time axes, what cannot be, what it costs.
+#include "protocol/plan.h"
+
+#include "packing/packing.h"
+
+#include <math.h>
+#include <string.h>
+
+static const Option stage_rows[] = {
+    {"stage", OPTION_TEXT, offsetof(Stage, name), 0, 0, 0, "",
+     "Name of the stage; it prefixes its results.", .required = 1},
+    {"time", OPTION_REAL, offsetof(Stage, time), 0, 1e-9, 1e12, "time unit of the method",
+     "How long the stage lasts: d^2/D0 with event-driven, d sqrt(m/kT) with newtonian dynamics.",
+     .required = 1},
+};
+const OptionTable stage_options = {stage_rows, sizeof stage_rows / sizeof *stage_rows,
+                                   sizeof(Stage)};
+
+static const Option ensemble_rows[] = {
+    {"replicas", OPTION_INTEGER, offsetof(EnsemblePlan, replicas), 4, 1, 100000, "",
+     "Independent samples; standard errors are taken over them."},
+    {"seed", OPTION_INTEGER, offsetof(EnsemblePlan, seed), 1, 0, 9007199254740992.0, "",
+     "Key of all random numbers: the same seed gives the same bits."},
+};
+const OptionTable ensemble_options = {ensemble_rows, sizeof ensemble_rows / sizeof *ensemble_rows,
+                                      sizeof(EnsemblePlan)};
+
+static const Option output_rows[] = {
+    {"trajectory.every", OPTION_REAL, offsetof(OutputPlan, trajectory_every), 0, 0, 1e12,
+     "time unit of the method", "Time between stored configurations; 0 stores none."},
+    {"checkpoint_every", OPTION_DURATION, offsetof(OutputPlan, checkpoint_every), 600, 0.01, 1e7,
+     "s", "Wall-clock time between checkpoints: what a crash can cost at most."},
+};
+const OptionTable output_options = {output_rows, sizeof output_rows / sizeof *output_rows,
+                                    sizeof(OutputPlan)};
+
+static const double TICKS_MOST = 4e18; // an int64 count of ticks with room to add
+
+Clock plan_clock(const Plan *plan, size_t stage) {
+    const Stage *at = &plan->stages[stage];
+    const PropagatorKind *kind = at->dynamics.kind;
+    const double tick = kind->tick(&at->dynamics.settings, &plan->system);
+    const int64_t per_step = kind->ticks_per_step(&at->dynamics.settings);
+    const double steps = rint(at->time / (tick * (double)per_step));
+    ASSERT(steps * (double)per_step < TICKS_MOST);
+    return (Clock){.tick = tick,
+                   .flight_time = kind->flight_time(&at->dynamics.settings),
+                   .ticks = per_step * (steps < 1 ? 1 : (int64_t)steps),
+                   .ticks_per_step = per_step,
+                   .unit = kind->time_unit,
+                   .stage = at->name,
+                   .thermostatted = kind->thermostatted};
+}
+
+static Status check_fractions(const System *system) {
+    double sum = 0;
+    for (size_t s = 0; s < system->species_count; s++) sum += system->species[s].fraction;
+    if (system->species_count < 1) return status_fail(BAD_DATA, "a system needs a species");
+    if (fabs(sum - 1) <= 1e-9) return OK;
+    return status_fail(BAD_DATA, "the fractions of the species add to %.10g, not to 1", sum);
+}
+
+static Status check_shapes(const System *system) {
+    for (size_t s = 0; s < system->species_count; s++) {
+        const ShapeKind shape = (ShapeKind)system->species[s].shape;
+        if (shape_dimension(shape) == (int)system->dimension) continue;
+        return status_fail(BAD_DATA, "a %s lives in %d dimensions, the system has %d",
+                           shape_names[shape], shape_dimension(shape), (int)system->dimension);
+    }
+    return OK;
+}
+
+static Status check_system(const System *system) {
+    TRY(check_fractions(system));
+    TRY(check_shapes(system));
+    if ((system->packing_fraction > 0) == (system->number_density > 0)) {
+        return status_fail(BAD_DATA, "give packing_fraction or number_density, one of the two");
+    }
+    if (system->aspect.count != 0 && system->aspect.count != system->dimension) {
+        return status_fail(BAD_DATA, "box.aspect has %d numbers, the box %d edges",
+                           (int)system->aspect.count, (int)system->dimension);
+    }
+    return packing_check(system);
+}
+
+static Status check_stage(const Plan *plan, size_t stage) {
+    const Stage *at = &plan->stages[stage];
+    const PropagatorKind *kind = at->dynamics.kind;
+    TRY(kind->check(&at->dynamics.settings, &plan->system));
+    for (size_t other = 0; other < stage; other++) {
+        if (strcmp(at->name, plan->stages[other].name) != 0) continue;
+        return status_fail(BAD_DATA, "two stages are called '%s'", at->name);
+    }
+    const double tick = kind->tick(&at->dynamics.settings, &plan->system);
+    if (!(at->time > 0 && at->time / tick < TICKS_MOST)) {
+        return status_fail(BAD_DATA, "stage '%s': time = %g %s cannot be run in ticks of %g",
+                           at->name, at->time, kind->time_unit, tick);
+    }
+    const Clock clock = plan_clock(plan, stage);
+    for (size_t k = 0; k < at->observation_count; k++) {
+        const ObservableKind *observable = at->observations[k].kind;
+        if (!observable->check) continue;
+        TRY(observable->check(&at->observations[k].settings, &plan->system, &clock));
+    }
+    return OK;
+}
+
+Status plan_check(const Plan *plan) {
+    TRY(check_system(&plan->system));
+    if (plan->stage_count < 1) return status_fail(BAD_DATA, "a protocol needs a stage");
+    for (size_t s = 0; s < plan->stage_count; s++) TRY(check_stage(plan, s));
+    return OK;
+}
+
+size_t plan_memory(const Plan *plan) {
+    const size_t particles = (size_t)plan->system.particles;
+    const size_t state =
+        particles * (1 + 2 * sizeof(double) + 3 * (2 * sizeof(double) + sizeof(int32_t)));
+    size_t propagator = 0, observers = 0;
+    for (size_t s = 0; s < plan->stage_count; s++) {
+        const Stage *stage = &plan->stages[s];
+        const size_t engine = stage->dynamics.kind->memory(&plan->system);
+        if (engine > propagator) propagator = engine;
+        const Clock clock = plan_clock(plan, s);
+        for (size_t k = 0; k < stage->observation_count; k++) {
+            const Observation *observation = &stage->observations[k];
+            observers += observation->kind->memory(&observation->settings, &plan->system, &clock);
+        }
+    }
+    return state + propagator + observers;
+}
+
+double plan_seconds(const Plan *plan) {
+    double seconds = 0;
+    for (size_t s = 0; s < plan->stage_count; s++) {
+        const Dynamics *dynamics = &plan->stages[s].dynamics;
+        seconds += dynamics->kind->seconds_per_particle_tick(&dynamics->settings, &plan->system) *
+                   (double)plan->system.particles * (double)plan_clock(plan, s).ticks;
+    }
+    return seconds;
+}
