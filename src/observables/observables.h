@@ -11,8 +11,9 @@
 
 // The stage's time axis.
 typedef struct Clock {
-    double tick;   // in `unit`
-    int64_t ticks; // in the stage
+    double tick;        // in `unit`
+    double flight_time; // of a tick, in d sqrt(m/kT)
+    int64_t ticks;      // in the stage
     int64_t ticks_per_step;
     const char *unit;   // "d^2/D0" or "d sqrt(m/kT)"
     const char *stage;  // its name, for the results
