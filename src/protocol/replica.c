@@ -1,0 +1,365 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One replica on its way through the stages of its plan.
+#include "protocol/replica.h"
+
+#include "base/memory.h"
+#include "packing/packing.h"
+
+#include <math.h>
+
+static const double OVERLAP_LIMIT = 1e-12; // depth, relative to contact, that counts as unhealthy
+static const double SLICE_SECONDS = 0.05;  // signals are noticed between slices
+static const int64_t HEALTH_STEPS = 2000;  // steps between overlap checks
+
+struct Replica {
+    const Plan *plan;
+    RngKey key;
+    State *state;
+    Propagator *propagator; // NULL between stages
+    Clock clock;            // of the stage
+    size_t stage;           // plan->stage_count when finished
+    int64_t tick;           // in the stage
+    Tally tally;            // of the stage
+    Tally finished;         // of the stages before
+    int64_t frames_due, frames_taken;
+    uint64_t overlaps;
+    double deepest_overlap;
+    PackingReport packing;
+    Observer *observers[STAGES_MOST][OBSERVATIONS_MOST]; // made when their stage begins
+};
+
+static Status check_health(Replica *replica) {
+    double deepest = 0;
+    uint64_t pairs = 0;
+    TRY(state_validate(replica->state));
+    TRY(state_deepest_overlap(replica->state, OVERLAP_LIMIT, &deepest, &pairs));
+    replica->overlaps += pairs;
+    replica->deepest_overlap = fmax(replica->deepest_overlap, deepest);
+    return OK;
+}
+
+static Status make_observers(Replica *replica, size_t stage) {
+    const Stage *plan = &replica->plan->stages[stage];
+    const Clock clock = plan_clock(replica->plan, stage);
+    for (size_t k = 0; k < plan->observation_count; k++) {
+        const Observation *observation = &plan->observations[k];
+        TRY(observation->kind->create(&replica->observers[stage][k], &observation->settings,
+                                      replica->state, &clock));
+    }
+    return OK;
+}
+
+static Status show_observers(Replica *replica, int64_t before) {
+    const size_t count = replica->plan->stages[replica->stage].observation_count;
+    for (size_t k = 0; k < count; k++) {
+        Observer *observer = replica->observers[replica->stage][k];
+        if (observer->kind->next(observer, before) != replica->tick) continue;
+        TRY(observer->kind->see(observer, replica->tick, replica->state, &replica->tally));
+    }
+    return OK;
+}
+
+// Ticks between frames: whole steps, so that a frame is a State that determines the future.
+static int64_t frame_ticks(const Plan *plan, const Clock *clock) {
+    if (!(plan->output.trajectory_every > 0)) return 0;
+    const double step = clock->tick * (double)clock->ticks_per_step;
+    const double steps = rint(plan->output.trajectory_every / step);
+    if (steps * (double)clock->ticks_per_step >= (double)clock->ticks) return clock->ticks;
+    return (steps < 1 ? 1 : (int64_t)steps) * clock->ticks_per_step;
+}
+
+static bool stage_is_first(size_t stage) {
+    return stage == 0;
+}
+
+// The first stage also gives the configuration at its start.
+static int64_t stage_frames(const Plan *plan, size_t stage) {
+    const Clock clock = plan_clock(plan, stage);
+    const int64_t every = frame_ticks(plan, &clock);
+    return every ? clock.ticks / every + stage_is_first(stage) : 0;
+}
+
+int64_t plan_frames(const Plan *plan) {
+    int64_t frames = 0;
+    for (size_t s = 0; s < plan->stage_count; s++) frames += stage_frames(plan, s);
+    return frames;
+}
+
+static Status make_propagator(Replica *replica) {
+    const Dynamics *dynamics = &replica->plan->stages[replica->stage].dynamics;
+    replica->clock = plan_clock(replica->plan, replica->stage);
+    return dynamics->kind->create(&replica->propagator, &dynamics->settings, replica->state,
+                                  replica->key);
+}
+
+static Status begin_stage(Replica *replica) {
+    TRY(make_propagator(replica));
+    TRY(make_observers(replica, replica->stage));
+    if (frame_ticks(replica->plan, &replica->clock)) {
+        replica->frames_due += stage_is_first(replica->stage);
+    }
+    return show_observers(replica, -1);
+}
+
+static Status end_stage(Replica *replica) {
+    TRY(check_health(replica));
+    replica->propagator->kind->free(replica->propagator);
+    replica->propagator = NULL;
+    tally_add(&replica->finished, &replica->tally);
+    replica->tally = (Tally){0};
+    replica->tick = 0;
+    replica->stage++;
+    return OK;
+}
+
+static Status allocate(Replica **out, const Plan *plan, size_t index) {
+    Replica *replica = NULL;
+    TRY(NEW(replica));
+    replica->plan = plan;
+    replica->key = (RngKey){.seed = (uint64_t)plan->ensemble.seed, .replica = index};
+    *out = replica;
+    return OK;
+}
+
+Status replica_create(Replica **out, const Plan *plan, size_t index, const atomic_int *stop) {
+    Replica *replica = NULL;
+    TRY(allocate(&replica, plan, index));
+    Status status =
+        packing_create(&replica->state, &plan->system, replica->key, stop, &replica->packing);
+    if (status == OK) status = check_health(replica);
+    if (status == OK) status = begin_stage(replica);
+    if (status != OK) {
+        replica_free(replica);
+        return status;
+    }
+    *out = replica;
+    return OK;
+}
+
+void replica_free(Replica *replica) {
+    if (!replica) return;
+    for (size_t s = 0; s < STAGES_MOST; s++) {
+        for (size_t k = 0; k < OBSERVATIONS_MOST; k++) {
+            Observer *observer = replica->observers[s][k];
+            if (observer) observer->kind->free(observer);
+        }
+    }
+    if (replica->propagator) replica->propagator->kind->free(replica->propagator);
+    state_free(replica->state);
+    memory_free(replica);
+}
+
+bool replica_finished(const Replica *replica) {
+    return replica->stage == replica->plan->stage_count;
+}
+
+static int64_t next_observation(const Replica *replica) {
+    int64_t next = INT64_MAX;
+    for (size_t k = 0; k < replica->plan->stages[replica->stage].observation_count; k++) {
+        const Observer *observer = replica->observers[replica->stage][k];
+        const int64_t wish = observer->kind->next(observer, replica->tick);
+        if (wish < next) next = wish;
+    }
+    return next;
+}
+
+static int64_t slice_ticks(const Replica *replica) {
+    const Dynamics *dynamics = &replica->plan->stages[replica->stage].dynamics;
+    const double tick_seconds =
+        dynamics->kind->seconds_per_particle_tick(&dynamics->settings, &replica->plan->system) *
+        (double)replica->state->count;
+    const int64_t per_step = replica->clock.ticks_per_step;
+    const double steps = floor(SLICE_SECONDS / (tick_seconds * (double)per_step));
+    return per_step * (steps < 1 ? 1 : steps > 1e9 ? 1000000000 : (int64_t)steps);
+}
+
+// The next multiple of `period` after `tick`.
+static int64_t next_multiple(int64_t tick, int64_t period) {
+    return tick - tick % period + period;
+}
+
+static int64_t least(int64_t a, int64_t b) {
+    return a < b ? a : b;
+}
+
+static int64_t next_stop(const Replica *replica) {
+    const Clock *clock = &replica->clock;
+    const int64_t frames = frame_ticks(replica->plan, clock);
+    int64_t stop = clock->ticks;
+    stop = least(stop, next_observation(replica));
+    stop = least(stop, next_multiple(replica->tick, slice_ticks(replica)));
+    stop = least(stop, next_multiple(replica->tick, HEALTH_STEPS * clock->ticks_per_step));
+    if (frames) stop = least(stop, next_multiple(replica->tick, frames));
+    return stop;
+}
+
+Status replica_advance(Replica *replica) {
+    if (!replica->propagator) return begin_stage(replica);
+    const int64_t before = replica->tick, after = next_stop(replica);
+    const int64_t frames = frame_ticks(replica->plan, &replica->clock);
+    TRY(replica->propagator->kind->advance(replica->propagator, after - before, &replica->tally));
+    replica->tick = after;
+    TRY(show_observers(replica, before));
+    if (frames && after % frames == 0) replica->frames_due++;
+    if (after % (HEALTH_STEPS * replica->clock.ticks_per_step) == 0) TRY(check_health(replica));
+    return after == replica->clock.ticks ? end_stage(replica) : OK;
+}
+
+// Between two stages nothing but the state is alive; inside one, only a step's end determines the
+// future.
+bool replica_can_save(const Replica *replica) {
+    return !replica->propagator || replica->tick % replica->clock.ticks_per_step == 0;
+}
+
+static const uint64_t REPLICA_TAG = 0x5245504c30303031; // "REPL0001"
+
+static void archive_observers(Replica *replica, Archive *archive, size_t stages) {
+    for (size_t s = 0; s < stages; s++) {
+        const size_t count = replica->plan->stages[s].observation_count;
+        for (size_t k = 0; k < count; k++) {
+            Observer *observer = replica->observers[s][k];
+            observer->kind->archive(observer, archive);
+        }
+    }
+}
+
+static void archive_place(Replica *replica, Archive *archive, uint64_t *stage, uint64_t *begun) {
+    archive_tag(archive, REPLICA_TAG);
+    archive_u64(archive, stage, 1);
+    archive_u64(archive, begun, 1);
+    archive_i64(archive, &replica->tick, 1);
+    archive_i64(archive, &replica->frames_due, 1);
+    archive_i64(archive, &replica->frames_taken, 1);
+    archive_u64(archive, &replica->overlaps, 1);
+    archive_f64(archive, &replica->deepest_overlap, 1);
+    archive_f64(archive, &replica->packing.seconds, 1);
+    archive_i64(archive, &replica->packing.windows, 1);
+    archive_f64(archive, &replica->packing.lattice_scale, 1);
+    tally_archive(&replica->tally, archive);
+    tally_archive(&replica->finished, archive);
+    archive_require(archive, *stage <= replica->plan->stage_count, "it has a stage too many");
+    archive_require(archive, *begun == 0 || *stage < replica->plan->stage_count,
+                    "it is inside a stage that does not exist");
+    archive_require(archive, replica->frames_taken >= 0 && replica->frames_due >= 0,
+                    "its frame counts are negative");
+}
+
+void replica_save(Replica *replica, Archive *archive) {
+    ASSERT(replica_can_save(replica));
+    uint64_t stage = replica->stage, begun = replica->propagator != NULL;
+    archive_place(replica, archive, &stage, &begun);
+    state_archive(replica->state, archive);
+    archive_observers(replica, archive, replica->stage + begun);
+}
+
+static Status load(Replica *replica, Archive *archive) {
+    uint64_t stage = 0, begun = 0;
+    archive_place(replica, archive, &stage, &begun);
+    TRY(state_create(&replica->state, &replica->plan->system));
+    state_archive(replica->state, archive);
+    TRY(archive_status(archive, false));
+    replica->stage = (size_t)stage;
+    for (size_t s = 0; s < stage + begun; s++) TRY(make_observers(replica, s));
+    archive_observers(replica, archive, (size_t)(stage + begun));
+    TRY(archive_status(archive, true));
+    if (!begun) return OK;
+    const Clock clock = plan_clock(replica->plan, replica->stage);
+    if (replica->tick < 0 || replica->tick >= clock.ticks ||
+        replica->tick % clock.ticks_per_step != 0) {
+        return status_fail(BAD_DATA, "stored state cannot be used: it is at tick %lld of %lld",
+                           (long long)replica->tick, (long long)clock.ticks);
+    }
+    return make_propagator(replica);
+}
+
+Status replica_load(Replica **out, const Plan *plan, size_t index, Archive *archive) {
+    Replica *replica = NULL;
+    TRY(allocate(&replica, plan, index));
+    const Status status = load(replica, archive);
+    if (status != OK) {
+        replica_free(replica);
+        return status;
+    }
+    *out = replica;
+    return OK;
+}
+
+bool replica_frame_due(const Replica *replica) {
+    return replica->frames_due > replica->frames_taken;
+}
+
+void replica_frame_taken(Replica *replica) {
+    ASSERT(replica_frame_due(replica));
+    replica->frames_taken++;
+}
+
+int64_t replica_frames_done(const Replica *replica) {
+    return replica->frames_taken;
+}
+
+const State *replica_state(const Replica *replica) {
+    return replica->state;
+}
+
+size_t replica_stage(const Replica *replica) {
+    return replica->stage;
+}
+
+double replica_stage_time(const Replica *replica) {
+    return replica->propagator ? replica->clock.tick * (double)replica->tick : 0;
+}
+
+double replica_time(const Replica *replica) {
+    double time = replica_stage_time(replica);
+    for (size_t s = 0; s < replica->stage; s++) {
+        const Clock clock = plan_clock(replica->plan, s);
+        time += clock.tick * (double)clock.ticks;
+    }
+    return time;
+}
+
+static double stage_work(const Plan *plan, size_t stage, int64_t ticks) {
+    const Dynamics *dynamics = &plan->stages[stage].dynamics;
+    return (double)ticks *
+           dynamics->kind->seconds_per_particle_tick(&dynamics->settings, &plan->system);
+}
+
+double replica_progress(const Replica *replica) {
+    double done = 0, all = 0;
+    for (size_t s = 0; s < replica->plan->stage_count; s++) {
+        const int64_t ticks = plan_clock(replica->plan, s).ticks;
+        all += stage_work(replica->plan, s, ticks);
+        if (s < replica->stage) done += stage_work(replica->plan, s, ticks);
+        if (s == replica->stage) done += stage_work(replica->plan, s, replica->tick);
+    }
+    return done / all;
+}
+
+Tally replica_tally(const Replica *replica) {
+    Tally sum = replica->finished;
+    tally_add(&sum, &replica->tally);
+    return sum;
+}
+
+PackingReport replica_packing(const Replica *replica) {
+    return replica->packing;
+}
+
+uint64_t replica_overlaps(const Replica *replica) {
+    return replica->overlaps;
+}
+
+double replica_deepest_overlap(const Replica *replica) {
+    return replica->deepest_overlap;
+}
+
+Status replica_write(const Replica *replica, Results *results) {
+    for (size_t s = 0; s < replica->plan->stage_count; s++) {
+        for (size_t k = 0; k < replica->plan->stages[s].observation_count; k++) {
+            const Observer *observer = replica->observers[s][k];
+            TRY(observer->kind->write(observer, replica->state, results,
+                                      (size_t)replica->key.replica));
+        }
+    }
+    return OK;
+}
