@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Replicas over threads.
+#include "ensemble/ensemble.h"
+
+#include "base/memory.h"
+#include "ensemble/unit.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+struct Ensemble {
+    EnsembleShared shared;
+    size_t threads, started;
+    pthread_t *thread;
+    atomic_size_t next_replica;
+    atomic_size_t threads_left;
+    double start; // monotonic seconds
+};
+
+static double monotonic_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static size_t thread_count(int wish, size_t replicas) {
+    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    const size_t most = wish > 0 ? (size_t)wish : processors > 0 ? (size_t)processors : 1;
+    return most < replicas ? most : replicas;
+}
+
+static Status allocate(Ensemble *ensemble, const Plan *plan, int threads) {
+    EnsembleShared *shared = &ensemble->shared;
+    const size_t replicas = (size_t)plan->ensemble.replicas;
+    ensemble->threads = thread_count(threads, replicas);
+    TRY(NEW_ARRAY(ensemble->thread, ensemble->threads));
+    TRY(NEW_ARRAY(shared->units, replicas));
+    return results_create(&shared->results, replicas);
+}
+
+Status ensemble_create(Ensemble **out, const Plan *plan, Store *store, int threads) {
+    Ensemble *ensemble = NULL;
+    TRY(NEW(ensemble));
+    pthread_mutex_init(&ensemble->shared.mutex, NULL);
+    ensemble->shared.plan = plan;
+    ensemble->shared.store = store;
+    const Status status = allocate(ensemble, plan, threads);
+    if (status != OK) {
+        ensemble_free(ensemble);
+        return status;
+    }
+    *out = ensemble;
+    return OK;
+}
+
+void ensemble_free(Ensemble *ensemble) {
+    if (!ensemble) return;
+    ASSERT(ensemble->started == 0);
+    results_free(ensemble->shared.results);
+    memory_free(ensemble->shared.units);
+    memory_free(ensemble->thread);
+    pthread_mutex_destroy(&ensemble->shared.mutex);
+    memory_free(ensemble);
+}
+
+// The first failure is kept, with its sentence, and stops the others after a checkpoint. That some
+// replica was interrupted is no failure of its own.
+static void keep_failure(EnsembleShared *shared, Status status) {
+    pthread_mutex_lock(&shared->mutex);
+    const bool first = shared->failure == OK || shared->failure == INTERRUPTED;
+    if (first && (status != INTERRUPTED || shared->failure == OK)) {
+        shared->failure = status;
+        snprintf(shared->sentence, sizeof shared->sentence, "%s", status_sentence());
+    }
+    pthread_mutex_unlock(&shared->mutex);
+    atomic_store(&shared->stop, 1);
+}
+
+static void *work(void *argument) {
+    Ensemble *ensemble = argument;
+    EnsembleShared *shared = &ensemble->shared;
+    const size_t replicas = (size_t)shared->plan->ensemble.replicas;
+    while (!atomic_load(&shared->stop)) {
+        const size_t replica = atomic_fetch_add(&ensemble->next_replica, 1);
+        if (replica >= replicas) break;
+        const Status status = unit_run(shared, replica);
+        if (status != OK) keep_failure(shared, status);
+    }
+    atomic_fetch_sub(&ensemble->threads_left, 1);
+    return NULL;
+}
+
+Status ensemble_start(Ensemble *ensemble) {
+    ensemble->start = monotonic_seconds();
+    atomic_store(&ensemble->threads_left, ensemble->threads);
+    for (; ensemble->started < ensemble->threads; ensemble->started++) {
+        pthread_t *thread = &ensemble->thread[ensemble->started];
+        const int reason = pthread_create(thread, NULL, work, ensemble);
+        if (reason == 0) continue;
+        const Status status = status_fail(NO_MEMORY, "cannot start a thread: %s", strerror(reason));
+        atomic_fetch_sub(&ensemble->threads_left, ensemble->threads - ensemble->started);
+        keep_failure(&ensemble->shared, status);
+        return OK; // told by ensemble_finish, after the threads that did start
+    }
+    return OK;
+}
+
+bool ensemble_running(const Ensemble *ensemble) {
+    return atomic_load(&ensemble->threads_left) > 0;
+}
+
+void ensemble_stop(Ensemble *ensemble) {
+    atomic_store(&ensemble->shared.stop, 1);
+}
+
+void ensemble_request_checkpoint(Ensemble *ensemble) {
+    atomic_fetch_add(&ensemble->shared.checkpoint_requests, 1);
+}
+
+static void count_unit(EnsembleProgress *progress, const Unit *unit, double *least) {
+    progress->finished += unit->finished;
+    progress->running += unit->running;
+    if (!unit->running || unit->fraction >= *least) return;
+    *least = unit->fraction;
+    progress->stage = unit->stage;
+    progress->stage_time = unit->stage_time;
+    progress->stage_unit = unit->stage_unit;
+}
+
+EnsembleProgress ensemble_progress(const Ensemble *ensemble) {
+    const EnsembleShared *shared = &ensemble->shared;
+    const size_t replicas = (size_t)shared->plan->ensemble.replicas;
+    EnsembleProgress progress = {
+        .seconds = monotonic_seconds() - ensemble->start, .replicas = replicas, .stage = ""};
+    double done = 0, done_now = 0, least = 2, ticks = 0;
+    pthread_mutex_t *mutex = (pthread_mutex_t *)&shared->mutex; // a look changes nothing
+    pthread_mutex_lock(mutex);
+    for (size_t r = 0; r < replicas; r++) {
+        const Unit *unit = &shared->units[r];
+        count_unit(&progress, unit, &least);
+        done += unit->fraction;
+        done_now += unit->fraction - unit->fraction_at_start;
+        ticks += unit->particle_ticks;
+    }
+    pthread_mutex_unlock(mutex);
+    progress.fraction = done / (double)replicas;
+    progress.rate = ticks / progress.seconds;
+    progress.seconds_left =
+        done_now > 0 ? progress.seconds * ((double)replicas - done) / done_now : NAN;
+    return progress;
+}
+
+// Counters of all replicas, in the order of replicas.
+static Status put_health(const EnsembleShared *shared) {
+    Results *results = shared->results;
+    UnitHealth sum = {.deepest_overlap = 0};
+    for (size_t r = 0; r < results->replicas; r++) {
+        const UnitHealth *health = &shared->units[r].health;
+        tally_add(&sum.tally, &health->tally);
+        sum.overlaps += health->overlaps;
+        sum.deepest_overlap = fmax(sum.deepest_overlap, health->deepest_overlap);
+    }
+    return unit_health_put(results, &sum);
+}
+
+static Status put_speed(const EnsembleShared *shared) {
+    double seconds = 0, ticks = 0, packing = 0;
+    for (size_t r = 0; r < shared->results->replicas; r++) {
+        seconds += shared->units[r].cpu_seconds;
+        ticks += shared->units[r].particle_ticks;
+        packing += shared->units[r].packing_seconds;
+    }
+    char text[64];
+    snprintf(text, sizeof text, "%.3f", seconds);
+    TRY(results_put_fact(shared->results, "cpu_seconds", text));
+    snprintf(text, sizeof text, "%.3f", packing);
+    TRY(results_put_fact(shared->results, "packing_seconds", text));
+    snprintf(text, sizeof text, "%.2f", ticks > 0 ? 1e9 * seconds / ticks : 0.0);
+    return results_put_fact(shared->results, "ns_per_particle_tick", text);
+}
+
+Status ensemble_finish(Ensemble *ensemble, Results **out) {
+    EnsembleShared *shared = &ensemble->shared;
+    for (; ensemble->started > 0; ensemble->started--) {
+        pthread_join(ensemble->thread[ensemble->started - 1], NULL);
+    }
+    for (size_t r = 0; shared->failure == OK && r < shared->results->replicas; r++) {
+        if (!shared->units[r].finished) {
+            shared->failure = status_fail(INTERRUPTED, "stopped before replica %zu was done", r);
+            snprintf(shared->sentence, sizeof shared->sentence, "%s", status_sentence());
+        }
+    }
+    if (shared->failure != OK) return status_fail(shared->failure, "%s", shared->sentence);
+    TRY(put_health(shared));
+    TRY(put_speed(shared));
+    *out = shared->results;
+    shared->results = NULL;
+    return OK;
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Replicas over threads: takes each from its checkpoint or from packing to its end, keeps
+// trajectories and checkpoints, and collects the results. The only place that knows threads; what
+// comes out does not depend on how many there are.
+#pragma once
+
+#include "protocol/plan.h"
+#include "store/store.h"
+
+typedef struct Ensemble Ensemble;
+
+// Plan and store are borrowed until ensemble_free. threads = 0: as many as processors.
+Status ensemble_create(Ensemble **out, const Plan *plan, Store *store, int threads);
+Status ensemble_start(Ensemble *ensemble);
+
+bool ensemble_running(const Ensemble *ensemble);
+
+// Both return at once: the threads act at the end of their slice, a twentieth of a second.
+void ensemble_stop(Ensemble *ensemble);               // checkpoint, then stop
+void ensemble_request_checkpoint(Ensemble *ensemble); // checkpoint, then go on
+
+typedef struct EnsembleProgress {
+    double fraction;     // of the work, 0 to 1
+    double seconds;      // wall time since the start
+    double seconds_left; // estimated; NaN at first
+    double rate;         // particle ticks per wall second, all threads
+    size_t replicas, running, finished;
+    const char *stage; // of the replica that is furthest behind among those running
+    double stage_time; // in stage_unit
+    const char *stage_unit;
+} EnsembleProgress;
+
+EnsembleProgress ensemble_progress(const Ensemble *ensemble);
+
+// Waits for the threads. OK: results are complete and yours. INTERRUPTED: stopped on request, all
+// is in checkpoints. Otherwise the first failure.
+Status ensemble_finish(Ensemble *ensemble, Results **out);
+void ensemble_free(Ensemble *ensemble);

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One replica from its checkpoint or its packing to its end.
+#include "ensemble/unit.h"
+
+#include "protocol/replica.h"
+#include "store/checkpoint.h"
+#include "store/trajectory.h"
+
+#include <stdlib.h>
+#include <time.h>
+
+typedef struct Run {
+    EnsembleShared *shared;
+    size_t index;
+    Replica *replica;
+    Trajectory *trajectory; // NULL without one
+    double last_checkpoint; // wall seconds
+    unsigned requests_seen;
+} Run;
+
+static double clock_seconds(clockid_t clock) {
+    struct timespec now;
+    clock_gettime(clock, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static Status open_replica(Run *run) {
+    const Plan *plan = run->shared->plan;
+    void *bytes = NULL;
+    size_t size = 0;
+    TRY(checkpoint_read(run->shared->store, run->index, &bytes, &size));
+    if (!bytes) return replica_create(&run->replica, plan, run->index, &run->shared->stop);
+    Archive archive = archive_reader(bytes, size);
+    Status status = replica_load(&run->replica, plan, run->index, &archive);
+    free(bytes);
+    if (status != OK) {
+        status = status_fail(status, "checkpoint of replica %zu in %s: %s", run->index,
+                             store_directory(run->shared->store), status_sentence());
+    }
+    return status;
+}
+
+static Status open_trajectory(Run *run) {
+    const int64_t frames = plan_frames(run->shared->plan);
+    if (frames == 0) return OK;
+    return trajectory_open(&run->trajectory, run->shared->store, run->index,
+                           replica_state(run->replica), frames, replica_frames_done(run->replica));
+}
+
+static Status write_frames(Run *run) {
+    if (!run->trajectory || !replica_frame_due(run->replica)) return OK;
+    const State *state = replica_state(run->replica);
+    TRY(trajectory_write(run->trajectory, state, state->step, replica_time(run->replica)));
+    replica_frame_taken(run->replica);
+    return OK;
+}
+
+// What the checkpoint relies on, the trajectory, is made durable first.
+static Status write_checkpoint(Run *run) {
+    if (run->trajectory) TRY(trajectory_sync(run->trajectory));
+    Archive archive = archive_writer();
+    replica_save(run->replica, &archive);
+    Status status = archive_status(&archive, true);
+    if (status == OK) {
+        status = checkpoint_write(run->shared->store, run->index, archive.bytes, archive.size);
+    }
+    archive_free(&archive);
+    run->last_checkpoint = clock_seconds(CLOCK_MONOTONIC);
+    run->requests_seen = atomic_load(&run->shared->checkpoint_requests);
+    return status;
+}
+
+static bool checkpoint_due(const Run *run) {
+    if (atomic_load(&run->shared->checkpoint_requests) != run->requests_seen) return true;
+    const double since = clock_seconds(CLOCK_MONOTONIC) - run->last_checkpoint;
+    return since >= run->shared->plan->output.checkpoint_every;
+}
+
+static void tell_start(Run *run) {
+    Unit *unit = &run->shared->units[run->index];
+    pthread_mutex_lock(&run->shared->mutex);
+    unit->running = true;
+    unit->fraction = unit->fraction_at_start = replica_progress(run->replica);
+    unit->stage = "packing";
+    unit->stage_unit = "";
+    unit->packing_seconds = replica_packing(run->replica).seconds;
+    pthread_mutex_unlock(&run->shared->mutex);
+}
+
+static void tell_progress(Run *run, uint64_t windows, double cpu_seconds) {
+    const Plan *plan = run->shared->plan;
+    const size_t stage = replica_stage(run->replica);
+    Unit *unit = &run->shared->units[run->index];
+    pthread_mutex_lock(&run->shared->mutex);
+    unit->fraction = replica_progress(run->replica);
+    unit->particle_ticks += (double)windows * (double)plan->system.particles;
+    unit->cpu_seconds += cpu_seconds;
+    if (stage < plan->stage_count) {
+        unit->stage = plan->stages[stage].name;
+        unit->stage_time = replica_stage_time(run->replica);
+        unit->stage_unit = plan->stages[stage].dynamics.kind->time_unit;
+    }
+    pthread_mutex_unlock(&run->shared->mutex);
+}
+
+static Status advance(Run *run) {
+    const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
+    const uint64_t before = replica_tally(run->replica).windows;
+    TRY(replica_advance(run->replica));
+    const uint64_t windows = replica_tally(run->replica).windows - before;
+    tell_progress(run, windows, clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start);
+    return OK;
+}
+
+static Status run_through(Run *run) {
+    run->last_checkpoint = clock_seconds(CLOCK_MONOTONIC);
+    run->requests_seen = atomic_load(&run->shared->checkpoint_requests);
+    while (true) {
+        TRY(write_frames(run));
+        if (replica_finished(run->replica)) return OK;
+        if (replica_can_save(run->replica)) {
+            if (atomic_load(&run->shared->stop)) {
+                TRY(write_checkpoint(run));
+                return status_fail(INTERRUPTED, "replica %zu stopped at a checkpoint", run->index);
+            }
+            if (checkpoint_due(run)) TRY(write_checkpoint(run));
+        }
+        TRY(advance(run));
+    }
+}
+
+static Status collect(Run *run) {
+    EnsembleShared *shared = run->shared;
+    Unit *unit = &shared->units[run->index];
+    pthread_mutex_lock(&shared->mutex);
+    const Status status = replica_write(run->replica, shared->results);
+    unit->health = (UnitHealth){.tally = replica_tally(run->replica),
+                                .overlaps = replica_overlaps(run->replica),
+                                .deepest_overlap = replica_deepest_overlap(run->replica)};
+    unit->finished = status == OK;
+    unit->fraction = 1;
+    pthread_mutex_unlock(&shared->mutex);
+    return status;
+}
+
+static Status run_unit(Run *run) {
+    TRY(open_replica(run));
+    TRY(open_trajectory(run));
+    tell_start(run);
+    const bool was_finished = replica_finished(run->replica);
+    TRY(run_through(run));
+    if (!was_finished) TRY(write_checkpoint(run));
+    return collect(run);
+}
+
+Status unit_run(EnsembleShared *shared, size_t replica) {
+    Run run = {.shared = shared, .index = replica};
+    Status status = run_unit(&run);
+    // A trajectory that cannot be closed may have lost frames: that is a failure like another.
+    const Status closed = trajectory_close(run.trajectory);
+    if (status == OK) status = closed;
+    replica_free(run.replica);
+    pthread_mutex_lock(&shared->mutex);
+    shared->units[replica].running = false;
+    pthread_mutex_unlock(&shared->mutex);
+    return status;
+}
+
+Status unit_health_put(Results *results, const UnitHealth *health) {
+    const Tally *tally = &health->tally;
+    const struct {
+        const char *name, *about;
+        double value;
+    } rows[] = {
+        {"overlaps", "pairs found overlapping at output, deeper than 1e-12 of contact (limit 0)",
+         (double)health->overlaps},
+        {"deepest_overlap", "deepest overlap at output, relative to contact (limit 1e-12)",
+         health->deepest_overlap},
+        {"non_finite", "numbers that were not finite (limit 0)", (double)tally->non_finite},
+        {"corrected_contacts", "pairs found overlapping and approaching, collided at once",
+         (double)tally->corrected},
+        {"deepest_contact", "deepest of them, relative to contact (limit 1e-9)",
+         tally->deepest_contact},
+        {"collisions", "pair collisions, each counted once", (double)tally->collisions},
+        {"windows", "event windows run", (double)tally->windows},
+        {"stale_events", "predicted collisions voided by an earlier one", (double)tally->stale},
+        {"list_rebuilds", "rebuilds of the neighbour list", (double)tally->rebuilds},
+        {"replays", "windows replayed since a particle outran the list", (double)tally->replays},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        TRY(results_put_health(results, rows[i].name, rows[i].about, rows[i].value));
+    }
+    return OK;
+}
