@@ -231,9 +231,11 @@ Status results_put_fact(Results *results, const char *name, const char *text) {
     return OK;
 }
 
-Status results_put_health(Results *results, const char *name, const char *about, double value) {
+Status results_put_health(Results *results, const char *name, const char *about, double limit,
+                          double value) {
     for (size_t i = 0; i < results->health_count; i++) {
         if (strcmp(results->health[i].name, name) != 0) continue;
+        results->health[i].limit = limit;
         results->health[i].value = value;
         return OK;
     }
@@ -241,6 +243,7 @@ Status results_put_health(Results *results, const char *name, const char *about,
     ResultCounter *counter = &results->health[results->health_count];
     TRY(keep_name(counter->name, name));
     TRY(KEEP_TEXT(counter->about, about));
+    counter->limit = limit;
     counter->value = value;
     results->health_count++;
     return OK;
@@ -259,6 +262,17 @@ const ResultScalar *results_find_scalar(const Results *results, const char *stag
 const char *results_find_fact(const Results *results, const char *name) {
     const ResultFact *fact = find_fact(results, name);
     return fact ? fact->text : NULL;
+}
+
+bool result_healthy(const ResultCounter *counter) {
+    return isnan(counter->limit) || counter->value <= counter->limit; // a NaN value is not
+}
+
+const ResultCounter *results_broken_limit(const Results *results) {
+    for (size_t i = 0; i < results->health_count; i++) {
+        if (!result_healthy(&results->health[i])) return &results->health[i];
+    }
+    return NULL;
 }
 
 // Mean and its standard error s/sqrt(n), in two passes so that close values lose no digits.

@@ -6,6 +6,7 @@
 
 #include "base/status.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -49,6 +50,7 @@ typedef struct ResultCounter {
     char name[RESULT_NAME];
     char about[RESULT_TEXT];
     double value; // a count, or a depth
+    double limit; // the most that is healthy; NaN: a number to know, not to judge
 } ResultCounter;
 
 typedef struct Results {
@@ -70,13 +72,17 @@ Status results_put_series(Results *results, const ResultSeries *shape, size_t re
 Status results_put_scalar(Results *results, const char *stage, const char *quantity,
                           const char *unit, const char *about, size_t replica, double value);
 Status results_put_fact(Results *results, const char *name, const char *text);
-Status results_put_health(Results *results, const char *name, const char *about, double value);
+Status results_put_health(Results *results, const char *name, const char *about, double limit,
+                          double value);
 
 const ResultSeries *results_find_series(const Results *results, const char *stage,
                                         const char *observable); // NULL if none
 const ResultScalar *results_find_scalar(const Results *results, const char *stage,
                                         const char *quantity);
 const char *results_find_fact(const Results *results, const char *name); // NULL if none
+
+bool result_healthy(const ResultCounter *counter);
+const ResultCounter *results_broken_limit(const Results *results); // the first; NULL if healthy
 
 typedef struct Estimate {
     double value; // mean over the replicas that have a value

@@ -136,13 +136,26 @@ START_TEST(facts_and_health_are_replaced_by_name) {
     Results *results = new_results(1);
     results_put_fact(results, "host", "a");
     results_put_fact(results, "host", "b");
-    results_put_health(results, "overlaps", "pairs", 1);
-    results_put_health(results, "overlaps", "pairs", 2);
+    results_put_health(results, "overlaps", "pairs", 0, 1);
+    results_put_health(results, "overlaps", "pairs", 0, 2);
     ck_assert_str_eq(results_find_fact(results, "host"), "b");
     ck_assert_ptr_null(results_find_fact(results, "seed"));
     ck_assert_uint_eq(results->fact_count, 1);
     ck_assert_uint_eq(results->health_count, 1);
     ck_assert_double_eq(results->health[0].value, 2);
+    results_free(results);
+}
+END_TEST
+
+START_TEST(what_is_above_its_limit_or_no_number_is_not_healthy) {
+    Results *results = new_results(1);
+    results_put_health(results, "collisions", "a number to know", NAN, 1e9);
+    results_put_health(results, "depth", "at its limit", 1e-12, 1e-12);
+    ck_assert_ptr_null(results_broken_limit(results));
+    results_put_health(results, "drift", "no number", 1, NAN);
+    ck_assert_str_eq(results_broken_limit(results)->name, "drift");
+    results_put_health(results, "depth", "above its limit", 1e-12, 2e-12);
+    ck_assert_str_eq(results_broken_limit(results)->name, "depth");
     results_free(results);
 }
 END_TEST
@@ -157,6 +170,7 @@ int main(void) {
     tcase_add_test(tests, other_axes_under_the_same_name_are_refused);
     tcase_add_test(tests, names_that_would_be_paths_or_too_long_are_refused);
     tcase_add_test(tests, facts_and_health_are_replaced_by_name);
+    tcase_add_test(tests, what_is_above_its_limit_or_no_number_is_not_healthy);
     Suite *suite = suite_create("results");
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
