@@ -7,6 +7,7 @@
 #include "store/trajectory.h"
 
 #include <math.h>
+#include <math.h>
 #include <stdlib.h>
 #include <time.h>
 
@@ -171,26 +172,27 @@ Status unit_health_put(Results *results, const UnitHealth *health) {
     const Tally *tally = &health->tally;
     const struct {
         const char *name, *about;
-        double limit, value;
+        double value, limit;
     } rows[] = {
-        {"overlaps", "pairs found overlapping at output, deeper than 1e-12 of contact", 0,
-         (double)health->overlaps},
-        {"deepest_overlap", "deepest overlap at output, relative to contact", 1e-12,
-         health->deepest_overlap},
-        {"non_finite", "numbers that were not finite", 0, (double)tally->non_finite},
-        {"corrected_contacts", "pairs found overlapping and approaching, collided at once", NAN,
-         (double)tally->corrected},
-        {"deepest_contact", "deepest of them, relative to contact", 1e-9, tally->deepest_contact},
-        {"collisions", "pair collisions, each counted once", NAN, (double)tally->collisions},
-        {"windows", "event windows run", NAN, (double)tally->windows},
-        {"stale_events", "predicted collisions voided by an earlier one", NAN,
-         (double)tally->stale},
-        {"list_rebuilds", "rebuilds of the neighbour list", NAN, (double)tally->rebuilds},
-        {"replays", "windows replayed since a particle outran the list", NAN,
-         (double)tally->replays},
+        {"overlaps", "pairs found overlapping at output, deeper than 1e-12 of contact",
+         (double)health->overlaps, 0},
+        {"deepest_overlap", "deepest overlap at output, relative to contact",
+         health->deepest_overlap, 1e-12},
+        {"non_finite", "numbers that were not finite", (double)tally->non_finite, 0},
+        {"deepest_contact", "deepest overlap of a colliding pair, relative to contact",
+         tally->deepest_contact, 1e-9},
+        {"corrected_contacts", "pairs found overlapping and approaching, collided at once",
+         (double)tally->corrected, INFINITY},
+        {"collisions", "pair collisions, each counted once", (double)tally->collisions, INFINITY},
+        {"windows", "event windows run", (double)tally->windows, INFINITY},
+        {"stale_events", "predicted collisions voided by an earlier one", (double)tally->stale,
+         INFINITY},
+        {"list_rebuilds", "rebuilds of the neighbour list", (double)tally->rebuilds, INFINITY},
+        {"replays", "windows replayed since a particle outran the list", (double)tally->replays,
+         INFINITY},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        TRY(results_put_health(results, rows[i].name, rows[i].about, rows[i].limit, rows[i].value));
+        TRY(results_put_health(results, rows[i].name, rows[i].about, rows[i].value, rows[i].limit));
     }
     return OK;
 }

@@ -42,5 +42,5 @@ typedef struct EnsembleShared {
 
 Status unit_run(EnsembleShared *shared, size_t replica);
 
-// Health counters with the limit of each; UNHEALTHY is for the caller to decide.
+// Health counters, with the limit of each.
 Status unit_health_put(Results *results, const UnitHealth *health);
