@@ -182,14 +182,14 @@ Status unit_health_put(Results *results, const UnitHealth *health) {
         {"deepest_contact", "deepest overlap of a colliding pair, relative to contact",
          tally->deepest_contact, 1e-9},
         {"corrected_contacts", "pairs found overlapping and approaching, collided at once",
-         (double)tally->corrected, INFINITY},
-        {"collisions", "pair collisions, each counted once", (double)tally->collisions, INFINITY},
-        {"windows", "event windows run", (double)tally->windows, INFINITY},
+         (double)tally->corrected, NAN},
+        {"collisions", "pair collisions, each counted once", (double)tally->collisions, NAN},
+        {"windows", "event windows run", (double)tally->windows, NAN},
         {"stale_events", "predicted collisions voided by an earlier one", (double)tally->stale,
-         INFINITY},
-        {"list_rebuilds", "rebuilds of the neighbour list", (double)tally->rebuilds, INFINITY},
+         NAN},
+        {"list_rebuilds", "rebuilds of the neighbour list", (double)tally->rebuilds, NAN},
         {"replays", "windows replayed since a particle outran the list", (double)tally->replays,
-         INFINITY},
+         NAN},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         TRY(results_put_health(results, rows[i].name, rows[i].about, rows[i].value, rows[i].limit));

@@ -237,7 +237,6 @@ Status results_put_health(Results *results, const char *name, const char *about,
         if (strcmp(results->health[i].name, name) != 0) continue;
         results->health[i].limit = limit;
         results->health[i].value = value;
-        results->health[i].limit = limit;
         return OK;
     }
     TRY(ONE_MORE(results->health, results->health_count));
@@ -246,16 +245,8 @@ Status results_put_health(Results *results, const char *name, const char *about,
     TRY(KEEP_TEXT(counter->about, about));
     counter->limit = limit;
     counter->value = value;
-    counter->limit = limit;
     results->health_count++;
     return OK;
-}
-
-const ResultCounter *results_broken_limit(const Results *results) {
-    for (size_t i = 0; i < results->health_count; i++) {
-        if (!(results->health[i].value <= results->health[i].limit)) return &results->health[i];
-    }
-    return NULL;
 }
 
 const ResultSeries *results_find_series(const Results *results, const char *stage,

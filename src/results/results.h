@@ -50,7 +50,6 @@ typedef struct ResultCounter {
     char name[RESULT_NAME];
     char about[RESULT_TEXT];
     double value; // a count, or a depth
-    double limit; // the run has failed above it; infinite: told only
     double limit; // the most that is healthy; NaN: a number to know, not to judge
 } ResultCounter;
 
@@ -93,7 +92,4 @@ typedef struct Estimate {
 
 Estimate results_series_estimate(const Results *results, const ResultSeries *series,
                                  size_t element);
-// The first counter above its limit; NULL if all is well.
-const ResultCounter *results_broken_limit(const Results *results);
-
 Estimate results_scalar_estimate(const Results *results, const ResultScalar *scalar);
