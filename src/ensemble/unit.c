@@ -192,7 +192,7 @@ Status unit_health_put(Results *results, const UnitHealth *health) {
          NAN},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        TRY(results_put_health(results, rows[i].name, rows[i].about, rows[i].value, rows[i].limit));
+        TRY(results_put_health(results, rows[i].name, rows[i].about, rows[i].limit, rows[i].value));
     }
     return OK;
 }
