@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs a plan in a directory: progress line, signals, summary. Talk goes to standard error.
+#include "runner.h"
+
+#include "signals.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+static const double TERMINAL_SECONDS = 0.2; // between progress lines
+static const double PIPE_SECONDS = 10;
+
+static void print_time(FILE *out, double seconds) {
+    if (!isfinite(seconds))
+        fputs("-", out);
+    else if (seconds < 100)
+        fprintf(out, "%.0f s", seconds);
+    else if (seconds < 6000)
+        fprintf(out, "%.0f min", seconds / 60);
+    else
+        fprintf(out, "%.1f h", seconds / 3600);
+}
+
+static void print_progress(const EnsembleProgress *progress) {
+    fprintf(stderr, "%3.0f %%  %s t = %.3g %s  %zu of %zu replicas done  %.3g particle steps/s  ",
+            100 * progress->fraction, progress->stage, progress->stage_time,
+            progress->stage_unit ? progress->stage_unit : "", progress->finished,
+            progress->replicas, progress->rate);
+    print_time(stderr, progress->seconds_left);
+    fputs(" left", stderr);
+}
+
+static void wait_a_little(void) {
+    const struct timespec pause = {.tv_nsec = 20000000};
+    nanosleep(&pause, NULL); // a signal ends it early, which is welcome
+}
+
+static void watch(Session *session, bool quiet) {
+    const bool terminal = isatty(STDERR_FILENO);
+    const double period = terminal ? TERMINAL_SECONDS : PIPE_SECONDS;
+    double last = 0;
+    bool stopping = false;
+    while (session_running(session)) {
+        wait_a_little();
+        if (signals_want_stop() && !stopping) {
+            stopping = true;
+            session_stop(session);
+        }
+        if (signals_want_checkpoint()) session_request_checkpoint(session);
+        const EnsembleProgress progress = session_progress(session);
+        if (quiet || progress.seconds - last < period) continue;
+        last = progress.seconds;
+        if (terminal) fputs("\r\033[K", stderr);
+        print_progress(&progress);
+        if (!terminal) fputs("\n", stderr);
+    }
+    if (terminal && !quiet) fputs("\r\033[K", stderr);
+}
+
+static void print_end(const Results *results, const char *directory, const char *note) {
+    const char *speed = results_find_fact(results, "ns_per_particle_tick");
+    const char *seconds = results_find_fact(results, "wall_seconds");
+    fprintf(stderr, "done in %s s (%s ns per particle and tick)\n", seconds, speed);
+    for (size_t i = 0; i < results->health_count; i++) {
+        const ResultCounter *counter = &results->health[i];
+        if (isnan(counter->limit)) continue;
+        fprintf(stderr, "health: %s = %g (limit %g)%s\n", counter->name, counter->value,
+                counter->limit, result_healthy(counter) ? "" : "  BROKEN");
+    }
+    if (note) fprintf(stderr, "no complete report: %s\n", note);
+    fprintf(stderr, "numbers: perrin show %s\nreport:  %s/report.html\n", directory, directory);
+}
+
+static Status watch_and_finish(Session *session, const SessionWishes *wishes, bool quiet) {
+    if (session_resumes(session) && !quiet) {
+        fprintf(stderr, "resuming in %s\n", wishes->directory);
+    }
+    watch(session, quiet);
+    Results *results = NULL;
+    const char *note = NULL;
+    const Status status = session_finish(session, &results, &note);
+    if (status == INTERRUPTED) {
+        return status_fail(INTERRUPTED,
+                           "interrupted; all is in checkpoints: the same command resumes in %s",
+                           wishes->directory);
+    }
+    if (results && !quiet) print_end(results, wishes->directory, note);
+    results_free(results);
+    return status;
+}
+
+Status runner_run(const Plan *plan, const SessionWishes *wishes, bool quiet) {
+    Session *session = NULL;
+    signals_catch();
+    TRY(session_open(&session, plan, wishes));
+    const Status status = watch_and_finish(session, wishes, quiet);
+    session_close(session);
+    return status;
+}
+
+Status runner_threads(const char *text, int *threads) {
+    *threads = 0;
+    if (!text) return OK;
+    char *end = NULL;
+    const long value = strtol(text, &end, 10);
+    if (end == text || *end != '\0' || value < 1 || value > 4096) {
+        return status_fail(BAD_USAGE, "--threads %s: a whole number from 1 to 4096 is wanted",
+                           text);
+    }
+    *threads = (int)value;
+    return OK;
+}

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One run of a plan in a directory, from the lock to the report.
+#include "session/session.h"
+
+#include "analysis/analysis.h"
+#include "base/cpu.h"
+#include "base/memory.h"
+#include "base/version.h"
+#include "config/config.h"
+#include "report/report.h"
+#include "store/store.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+struct Session {
+    const Plan *plan;
+    char *plan_text;
+    Store *store;
+    Ensemble *ensemble;
+    bool resumes;
+    char report_note[1024];
+};
+
+static Status begin(Session *session, const SessionWishes *wishes) {
+    TRY(plan_check(session->plan));
+    TRY(config_write(session->plan, &session->plan_text));
+    TRY(store_open(&session->store, wishes->directory));
+    store_ignore_signals();
+    TRY(store_take_plan(session->store, session->plan_text, &session->resumes));
+    if (wishes->must_resume && !session->resumes) {
+        return status_fail(BAD_USAGE, "nothing to resume in %s", wishes->directory);
+    }
+    TRY(store_log(session->store, "perrin %s (%s) %s, %d threads", version_number(),
+                  version_commit(), session->resumes ? "resumes" : "starts", wishes->threads));
+    TRY(ensemble_create(&session->ensemble, session->plan, session->store, wishes->threads));
+    return ensemble_start(session->ensemble);
+}
+
+Status session_open(Session **out, const Plan *plan, const SessionWishes *wishes) {
+    Session *session = NULL;
+    TRY(NEW(session));
+    session->plan = plan;
+    const Status status = begin(session, wishes);
+    if (status != OK) {
+        session_close(session);
+        return status;
+    }
+    *out = session;
+    return OK;
+}
+
+void session_close(Session *session) {
+    if (!session) return;
+    ensemble_free(session->ensemble);
+    store_close(session->store);
+    free(session->plan_text);
+    memory_free(session);
+}
+
+bool session_resumes(const Session *session) {
+    return session->resumes;
+}
+
+bool session_running(const Session *session) {
+    return ensemble_running(session->ensemble);
+}
+
+EnsembleProgress session_progress(const Session *session) {
+    return ensemble_progress(session->ensemble);
+}
+
+void session_stop(Session *session) {
+    ensemble_stop(session->ensemble);
+}
+
+void session_request_checkpoint(Session *session) {
+    ensemble_request_checkpoint(session->ensemble);
+}
+
+static Status put_integer(Results *results, const char *name, int64_t value) {
+    char text[32];
+    snprintf(text, sizeof text, "%lld", (long long)value);
+    return results_put_fact(results, name, text);
+}
+
+static Status put_when_and_where(Results *results, double seconds) {
+    char text[256];
+    const time_t now = time(NULL);
+    struct tm utc;
+    strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
+    TRY(results_put_fact(results, "finished", text));
+    if (gethostname(text, sizeof text) != 0) strcpy(text, "unknown");
+    text[sizeof text - 1] = '\0';
+    TRY(results_put_fact(results, "host", text));
+    snprintf(text, sizeof text, "%.3f", seconds);
+    return results_put_fact(results, "wall_seconds", text);
+}
+
+static Status put_provenance(const Session *session, Results *results, double seconds) {
+    TRY(results_put_fact(results, "title", session->plan->title));
+    TRY(results_put_fact(results, "version", version_number()));
+    TRY(results_put_fact(results, "commit", version_commit()));
+    TRY(results_put_fact(results, "compiler", version_compiler()));
+    TRY(results_put_fact(results, "flags", version_flags()));
+    TRY(results_put_fact(results, "vector_path", cpu_path_name(cpu_path())));
+    TRY(put_integer(results, "seed", session->plan->ensemble.seed));
+    TRY(put_integer(results, "replicas", session->plan->ensemble.replicas));
+    TRY(results_put_fact(results, "plan", session->plan_text));
+    return put_when_and_where(results, seconds);
+}
+
+// The report is a convenience: the run has not failed for want of gnuplot.
+static Status write_report(Session *session, const Results *results) {
+    const Status status = report_write(results, store_directory(session->store));
+    if (status == OK) return OK;
+    snprintf(session->report_note, sizeof session->report_note, "%s", status_sentence());
+    return store_log(session->store, "report: %s", session->report_note);
+}
+
+static Status keep_results(Session *session, Results *results, double seconds) {
+    TRY(put_provenance(session, results, seconds));
+    TRY(analysis_derive(results, session->plan));
+    TRY(store_write_results(session->store, results));
+    TRY(write_report(session, results));
+    return store_log(session->store, "finished after %.1f s", seconds);
+}
+
+Status session_finish(Session *session, Results **out, const char **report_note) {
+    Results *results = NULL;
+    const double seconds = ensemble_progress(session->ensemble).seconds;
+    Status status = ensemble_finish(session->ensemble, &results);
+    if (status == OK) status = keep_results(session, results, seconds);
+    if (status != OK) {
+        // The run's own failure is what the user must read, even if the log cannot take it.
+        char sentence[1024];
+        snprintf(sentence, sizeof sentence, "%s", status_sentence());
+        results_free(results);
+        if (store_log(session->store, "stopped: %s", sentence) == OK) {
+            return status_fail(status, "%s", sentence);
+        }
+        return status_fail(status, "%s (and the log could not be written)", sentence);
+    }
+    *out = results;
+    *report_note = session->report_note[0] ? session->report_note : NULL;
+    const ResultCounter *broken = results_broken_limit(results);
+    if (!broken) return OK;
+    return status_fail(UNHEALTHY, "health: %s = %g exceeds its limit %g (%s); results are in %s",
+                       broken->name, broken->value, broken->limit, broken->about,
+                       store_directory(session->store));
+}
