@@ -3,6 +3,8 @@
 // that depends on threads, and the same bits on every instruction set.
 #pragma once
 
+#include "base/cpu.h"
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -35,7 +37,11 @@ double rng_normal(Rng *rng);                  // mean 0, variance 1
 
 // For the hot path: `components` (2 or 3) independent standard normal numbers for each of `count`
 // particles at one step; component a of particle ids[i] goes to normals[a][i], a pure function of
-// (key, stream, step, ids[i], a). `count` may be any number; arrays 64-byte aligned and padded to
-// a multiple of 8 elements. Vectorised Philox with polynomials of our own, dispatched by cpu_path.
+// (key, stream, step, ids[i], a). `count` may be any number. Vectorised Threefry2x32-20, keyed by
+// Philox, with polynomials of our own, dispatched by cpu_path. Single precision, tails to 8.1.
 void rng_normals(RngKey key, RngStream stream, uint64_t step, const uint32_t *ids, size_t count,
                  int components, double *const normals[3]);
+
+// The same numbers on a given instruction set, which the processor must have: for tests, benches.
+void rng_normals_with(CpuPath path, RngKey key, RngStream stream, uint64_t step,
+                      const uint32_t *ids, size_t count, int components, double *const normals[3]);

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Normal numbers by counter, 16 particles at a time.
+#define LANES 16
+#include "rng/normals_kernel.h"
+
+void normals_fill_avx512(const NormalsKey *key, const uint32_t *ids, size_t count, int components,
+                         double *const normals[3]) {
+    fill_normals(key, ids, count, components, normals);
+}
