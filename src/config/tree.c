@@ -280,6 +280,11 @@ static Status read_with(TreeReader *reader, const char *text, size_t length, Nod
     return status;
 }
 
+Status tree_read_value(Node **out, const char *name, const char *text) {
+    TreeReader reader = {.name = name};
+    return read_with(&reader, text, strlen(text), out);
+}
+
 static Status too_long(const char *name) {
     return status_fail(BAD_DATA, "%s: error: longer than %d bytes; a run file has a few thousand",
                        name, SIZE_MOST);

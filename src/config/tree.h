@@ -26,6 +26,9 @@ struct Node {
 // A document of one map. `name` and `text` are borrowed; the name until the tree is freed.
 Status tree_read(Node **out, const char *name, const char *text, size_t length);
 
+// A value of any kind, such as the default of an option in run-file notation.
+Status tree_read_value(Node **out, const char *name, const char *text);
+
 // Puts the value of "a.b.c=VALUE" into the tree, making maps on the way. In a list of stages the
 // name of a stage picks one.
 Status tree_set(Node *root, const char *assignment);

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cross-checks of a plan. The modules judge what they know (method, packing, observables); this
+// file adds the place, and checks first what has a better place than they could know.
+#include "config/judge.h"
+
+#include "base/constants.h"
+#include "packing/packing.h"
+
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+static const double FRACTIONS_OFF = 1e-9; // how far their sum may be from 1
+
+// The value at a path of keys below `node`, or the deepest there is: a place to point to.
+static const Node *place(const Node *node, const char *first, const char *second) {
+    const Node *inner = node && first ? tree_find(node, first) : NULL;
+    if (!inner) return node;
+    const Node *innermost = second ? tree_find(inner, second) : NULL;
+    return innermost ? innermost : inner;
+}
+
+static const Node *nth(const Node *parent, size_t index) {
+    const Node *node = parent->first;
+    for (; index > 0; index--) node = node->next;
+    return node;
+}
+
+// A module's own sentence, with the place.
+static Status placed(const Node *node, Status status) {
+    if (status != BAD_DATA) return status;
+    return tree_fail(node, "%s", status_sentence());
+}
+
+static Status judge_species(const Node *map, const System *system) {
+    double sum = 0;
+    size_t counts[SPECIES_MOST];
+    for (size_t s = 0; s < system->species_count; s++) {
+        const ShapeKind shape = (ShapeKind)system->species[s].shape;
+        sum += system->species[s].fraction;
+        if (shape_dimension(shape) != (int)system->dimension)
+            return tree_fail(place(nth(map, s), "shape", NULL),
+                             "shape = %s lives in %d dimensions, but dimension = %d",
+                             shape_names[shape], shape_dimension(shape), (int)system->dimension);
+    }
+    if (!(fabs(sum - 1) <= FRACTIONS_OFF))
+        return tree_fail(map, "the fractions of the species add to %.10g; they must add to 1", sum);
+    system_counts(system, counts);
+    for (size_t s = 0; s < system->species_count; s++) {
+        if (counts[s] == 0)
+            return tree_fail(place(nth(map, s), "fraction", NULL),
+                             "fraction = %g of %g particles leaves none of species '%s'",
+                             system->species[s].fraction, (double)system->particles,
+                             system->species[s].name);
+    }
+    return OK;
+}
+
+// Smallest over largest diameter, as far as the widths of the spreads say.
+static double size_ratio(const System *system) {
+    double least = INFINITY, most = 0;
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Species *species = &system->species[s];
+        static const double reach[SPREADS] = {0, 3, 1.7320508075688772}; // in standard deviations
+        const double width = reach[species->spread] * species->spread_width;
+        least = fmin(least, species->diameter * (1 - width));
+        most = fmax(most, species->diameter * (1 + width));
+    }
+    return fmax(least, 0) / most;
+}
+
+// No arrangement is denser. Discs: Florian, Rend. Circ. Mat. Palermo 9, 300 (1960), the density in
+// the triangle of two large discs and a small one. Spheres of k sizes: each size may at best fill
+// the holes of the larger ones as densely as equal spheres fill space.
+static double densest_packing(const System *system) {
+    const double equal = shape_densest_packing((ShapeKind)system->species[0].shape);
+    const double q = size_ratio(system);
+    if (q == 1) return equal;
+    if (system->dimension == 2 && q > 0)
+        return (PI * q * q + 2 * (1 - q * q) * asin(q / (1 + q))) / (2 * q * sqrt(2 * q + 1));
+    for (size_t s = 0; s < system->species_count; s++) {
+        if (system->species[s].spread_width > 0) return 1;
+    }
+    return 1 - pow(1 - equal, (double)system->species_count);
+}
+
+static Status judge_density(const Node *map, const System *system) {
+    const Node *fraction = tree_find(map, "packing_fraction");
+    const Node *density = tree_find(map, "number_density");
+    if (fraction && density)
+        return tree_fail(density, "packing_fraction is given as well; one of the two is enough");
+    if (!fraction && !density)
+        return tree_fail(map, "system needs packing_fraction or number_density");
+    const Node *given = fraction ? fraction : density;
+    const double value = fraction ? system->packing_fraction : system->number_density;
+    if (!(value > 0)) return tree_fail(given, "%s = %g must be above 0", given->key, value);
+    const double packing = system_packing_fraction(system), densest = densest_packing(system);
+    if (packing > densest)
+        return tree_fail(given, "%s = %g%s exceeds %.4g, the densest packing of %s %ss", given->key,
+                         value, fraction ? "" : " fills more than space has:", densest,
+                         size_ratio(system) == 1 ? "equal" : "such",
+                         shape_names[system->species[0].shape]);
+    return placed(given, packing_check(system));
+}
+
+static Status judge_system(const Node *root, const System *system) {
+    const Node *map = tree_find(root, "system");
+    TRY(judge_species(tree_find(map, "species"), system));
+    TRY(judge_density(map, system));
+    if (system->aspect.count == 0 || system->aspect.count == system->dimension) return OK;
+    return tree_fail(place(map, "box", "aspect"),
+                     "box.aspect has %d numbers; a box in %d dimensions has %d edges",
+                     (int)system->aspect.count, (int)system->dimension, (int)system->dimension);
+}
+
+static Status judge_stage_name(const Node *protocol, const Plan *plan, size_t stage) {
+    for (size_t other = 0; other < stage; other++) {
+        if (strcmp(plan->stages[stage].name, plan->stages[other].name) == 0)
+            return tree_fail(place(nth(protocol, stage), "stage", NULL),
+                             "two stages are called '%s'; results need a name for each",
+                             plan->stages[stage].name);
+    }
+    return OK;
+}
+
+static Status judge_method(const Node *root, const Node *node, const Plan *plan,
+                           const Stage *stage) {
+    static const double TICKS_MOST = 1e18; // plan_clock has room for more
+    const Node *own = tree_find(node, "dynamics");
+    const PropagatorKind *kind = stage->dynamics.kind;
+    TRY(placed(own ? own : tree_find(root, "dynamics"),
+               kind->check(&stage->dynamics.settings, &plan->system)));
+    const double tick = kind->tick(&stage->dynamics.settings, &plan->system);
+    if (stage->time / tick < TICKS_MOST) return OK;
+    return tree_fail(place(node, "time", NULL), "time = %g %s is more than %g steps of %g",
+                     stage->time, kind->time_unit, TICKS_MOST, tick);
+}
+
+static Status judge_stage(const Node *root, const Plan *plan, size_t index) {
+    const Node *protocol = tree_find(root, "protocol");
+    const Node *node = nth(protocol, index);
+    const Stage *stage = &plan->stages[index];
+    TRY(judge_stage_name(protocol, plan, index));
+    TRY(judge_method(root, node, plan, stage));
+    const Clock clock = plan_clock(plan, index);
+    for (size_t k = 0; k < stage->observation_count; k++) {
+        const Observation *observation = &stage->observations[k];
+        if (!observation->kind->check) continue;
+        TRY(placed(nth(tree_find(node, "observe"), k),
+                   observation->kind->check(&observation->settings, &plan->system, &clock)));
+    }
+    return OK;
+}
+
+Status judge_plan(const Node *root, const Plan *plan) {
+    TRY(judge_system(root, &plan->system));
+    for (size_t s = 0; s < plan->stage_count; s++) TRY(judge_stage(root, plan, s));
+    return placed(root, plan_check(plan));
+}
+
+Status judge_memory(const Node *root, const Plan *plan) {
+    static const double GIBIBYTE = 1073741824;
+    const double there = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    const double needed = (double)plan_memory(plan);
+    if (there <= 0 || needed <= there) return OK;
+    return tree_fail(
+        place(root, "system", "particles"),
+        "particles = %g need %.3g GiB of memory per replica; this machine has %.3g GiB",
+        (double)plan->system.particles, needed / GIBIBYTE, there / GIBIBYTE);
+}

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A Plan from a run file: each section of the tree goes through its option tables into the plan.
+// What can only be judged when all is read (density, stages, observables) is judged in judge.c.
+#include "config/config.h"
+
+#include "base/memory.h"
+#include "base/nearest.h"
+#include "config/judge.h"
+#include "config/options.h"
+#include "config/sections.h"
+#include "config/tree.h"
+
+#include <string.h>
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+enum { NAMES_MOST = 64 };
+
+// The nearest of the names of methods or observables, or a list of all, for a sentence.
+static Status fail_unknown_name(const Node *node, const char *what, const char *word,
+                                const char *const *names, size_t count) {
+    char shown[QUOTE_SIZE];
+    tree_quote(shown, word);
+    const char *later = later_sentence(word);
+    if (later) return tree_fail(node, "%s: %s", shown, later);
+    const size_t nearest = nearest_word(word, names, count);
+    if (nearest < count)
+        return tree_fail(node, "unknown %s '%s'; did you mean %s?", what, shown, names[nearest]);
+    Text list = {0};
+    for (size_t i = 0; i < count; i++) text_add(&list, "%s%s", i ? ", " : "", names[i]);
+    const Status status =
+        tree_fail(node, "unknown %s '%s'; there is %s", what, shown, text_words(&list));
+    text_free(&list);
+    return status;
+}
+
+static Status find_method(const Node *node, const char *word, const PropagatorKind **kind) {
+    *kind = propagator_kind_named(word);
+    if (*kind) return OK;
+    const char *names[NAMES_MOST];
+    size_t count = 0;
+    for (; propagator_kinds[count]; count++) names[count] = propagator_kinds[count]->name;
+    return fail_unknown_name(node, "method", word, names, count);
+}
+
+static Status find_observable(const Node *node, const char *word, const ObservableKind **kind) {
+    *kind = observable_kind_named(word);
+    if (*kind) return OK;
+    const char *names[NAMES_MOST];
+    size_t count = 0;
+    for (; observable_kinds[count]; count++) names[count] = observable_kinds[count]->name;
+    return fail_unknown_name(node, "observable", word, names, count);
+}
+
+// Names become groups of HDF5 files and parts of results' names.
+static Status check_name(const Node *node, const char *what, const char *name, size_t size) {
+    static const char letters[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+    char shown[QUOTE_SIZE];
+    const size_t length = strlen(name);
+    if (length == 0 || strspn(name, letters) != length)
+        return tree_fail(node, "'%s' cannot name a %s; use letters, digits, - and _",
+                         tree_quote(shown, name), what);
+    if (length >= size)
+        return tree_fail(node, "the name '%s' of a %s has %zu letters; at most %zu have room",
+                         tree_quote(shown, name), what, length, size - 1);
+    return OK;
+}
+
+static Status read_section(const char *name, const OptionTable *table, void *settings,
+                           const char *const *others, const Node *map, bool complete) {
+    const OptionTarget target = {table, settings};
+    const OptionMap options = {name, &target, 1, others};
+    return options_read(&options, map, complete);
+}
+
+static Status find_required(const Node *map, const char *key, const char *what, const Node **out) {
+    *out = tree_find(map, key);
+    return *out ? OK : tree_fail(map, "there is no '%s': %s", key, what);
+}
+
+static Status read_one_species(const Node *node, Species *species) {
+    TRY(check_name(node, "species", node->key, NAME_SIZE));
+    TRY(options_default(&species_options, species));
+    strcpy(species->name, node->key);
+    char name[NAME_SIZE + sizeof "species ''"];
+    snprintf(name, sizeof name, "species '%s'", species->name);
+    return read_section(name, &species_options, species, NULL, node, true);
+}
+
+static Status read_species(const Node *map, System *system) {
+    if (map->kind != NODE_MAP || map->count == 0)
+        return tree_fail(map, "species is a map from names to particles, such as "
+                              "{small: {shape: disc, fraction: 1}}");
+    if (map->count > SPECIES_MOST)
+        return tree_fail(map, "%zu species; at most %d have room", map->count, SPECIES_MOST);
+    for (const Node *node = map->first; node; node = node->next) {
+        TRY(read_one_species(node, &system->species[system->species_count]));
+        system->species_count++;
+    }
+    return OK;
+}
+
+static Status read_system(const Node *root, System *system) {
+    static const char *const others[] = {"species", NULL};
+    const Node *map = NULL, *species = NULL;
+    TRY(find_required(root, "system", "what is simulated", &map));
+    TRY(options_default(&system_options, system));
+    TRY(read_section("system", &system_options, system, others, map, true));
+    TRY(find_required(map, "species", "a map from names to particles", &species));
+    return read_species(species, system);
+}
+
+// Keys over what `dynamics` holds already; another method than before starts from its defaults.
+static Status read_dynamics(const Node *map, const char *name, Dynamics *dynamics) {
+    char word[OPTION_TEXT_SIZE] = "";
+    const PropagatorKind *kind = dynamics->kind;
+    const Node *method = tree_find(map, "method");
+    if (method) {
+        TRY(option_read(option_named(&method_options, "method"), method, word));
+        TRY(find_method(method, word, &kind));
+    }
+    if (kind && kind != dynamics->kind) {
+        *dynamics = (Dynamics){.kind = kind};
+        TRY(options_default(&kind->options, &dynamics->settings));
+    }
+    const OptionTarget targets[] = {{&method_options, word},
+                                    {kind ? &kind->options : NULL, &dynamics->settings}};
+    const OptionMap options = {name, targets, kind ? COUNT(targets) : 1, NULL};
+    return options_read(&options, map, !dynamics->kind);
+}
+
+static Status read_observable_settings(const Node *node, const ObservableKind *kind,
+                                       Settings *settings) {
+    return read_section(kind->name, &kind->options, settings, NULL, node, false);
+}
+
+// Defaults of the kind, then those of the file's `observe:`.
+static Status default_observation(const Node *root, const ObservableKind *kind,
+                                  Settings *settings) {
+    TRY(options_default(&kind->options, settings));
+    const Node *observe = tree_find(root, "observe");
+    const Node *node = observe ? tree_find(observe, kind->name) : NULL;
+    return node ? read_observable_settings(node, kind, settings) : OK;
+}
+
+// Also those settings that no stage uses must be right.
+static Status check_observe(const Node *root) {
+    const Node *observe = tree_find(root, "observe");
+    if (!observe) return OK;
+    if (observe->kind != NODE_MAP)
+        return tree_fail(observe, "observe is a map from observables to settings here; a stage's "
+                                  "own observe is a list");
+    for (const Node *node = observe->first; node; node = node->next) {
+        const ObservableKind *kind = NULL;
+        Settings settings = {{0}};
+        TRY(find_observable(node, node->key, &kind));
+        TRY(options_default(&kind->options, &settings));
+        TRY(read_observable_settings(node, kind, &settings));
+    }
+    return OK;
+}
+
+// `pressure` or `pressure: {every: 1}`.
+static Status read_observation(const Node *root, const Node *node, Observation *observation) {
+    const bool with_settings = node->kind == NODE_MAP && node->count == 1;
+    if (node->kind != NODE_WORD && !with_settings)
+        return tree_fail(node, "an entry of observe is an observable, or one observable with "
+                               "settings such as pressure: {...}");
+    const char *word = with_settings ? node->first->key : node->text;
+    TRY(find_observable(node, word, &observation->kind));
+    TRY(default_observation(root, observation->kind, &observation->settings));
+    if (!with_settings) return OK;
+    return read_observable_settings(node->first, observation->kind, &observation->settings);
+}
+
+static Status read_observations(const Node *root, const Node *list, Stage *stage) {
+    if (list->kind != NODE_LIST)
+        return tree_fail(list, "observe is a list of observables in a stage, such as [pressure]");
+    if (list->count > OBSERVATIONS_MOST)
+        return tree_fail(list, "%zu observables; at most %d have room", list->count,
+                         OBSERVATIONS_MOST);
+    for (const Node *node = list->first; node; node = node->next) {
+        Observation *now = &stage->observations[stage->observation_count];
+        TRY(read_observation(root, node, now));
+        for (const Observation *other = stage->observations; other < now; other++) {
+            if (other->kind == now->kind)
+                return tree_fail(node, "%s is there twice in stage '%s'", now->kind->name,
+                                 stage->name);
+        }
+        stage->observation_count++;
+    }
+    return OK;
+}
+
+static Status read_stage(const Node *root, const Node *node, const Dynamics *dynamics,
+                         Stage *stage) {
+    static const char *const others[] = {"dynamics", "observe", NULL};
+    char name[OPTION_TEXT_SIZE + sizeof "stage ''"] = "a stage";
+    TRY(options_default(&stage_options, stage));
+    const Node *label = tree_find(node, "stage");
+    if (label) {
+        TRY(option_read(option_named(&stage_options, "stage"), label, stage));
+        TRY(check_name(label, "stage", stage->name, NAME_SIZE));
+        snprintf(name, sizeof name, "stage '%s'", stage->name);
+    }
+    TRY(read_section(name, &stage_options, stage, others, node, true));
+    stage->dynamics = *dynamics;
+    const Node *own = tree_find(node, "dynamics");
+    if (own) TRY(read_dynamics(own, "dynamics", &stage->dynamics));
+    const Node *observe = tree_find(node, "observe");
+    return observe ? read_observations(root, observe, stage) : OK;
+}
+
+static Status read_protocol(const Node *root, Plan *plan) {
+    const Node *list = NULL;
+    TRY(find_required(root, "protocol", "the list of stages", &list));
+    if (list->kind != NODE_LIST || list->count == 0)
+        return tree_fail(list, "protocol is a list of stages, such as - {stage: quiescent, "
+                               "time: 1, observe: [pressure]}");
+    if (list->count > STAGES_MOST)
+        return tree_fail(list, "%zu stages; at most %d have room", list->count, STAGES_MOST);
+    for (const Node *node = list->first; node; node = node->next) {
+        TRY(read_stage(root, node, &plan->dynamics, &plan->stages[plan->stage_count]));
+        plan->stage_count++;
+    }
+    return OK;
+}
+
+static Status read_optional(const Node *root, const char *name, const OptionTable *table,
+                            void *settings) {
+    TRY(options_default(table, settings));
+    const Node *map = tree_find(root, name);
+    return map ? read_section(name, table, settings, NULL, map, true) : OK;
+}
+
+static Status read_plan(const Node *root, Plan *plan) {
+    const Node *dynamics = NULL;
+    TRY(options_default(&title_options, plan));
+    TRY(read_section("the run file", &title_options, plan, root_sections, root, true));
+    TRY(read_system(root, &plan->system));
+    TRY(find_required(root, "dynamics", "how time advances, as {method: event-driven}", &dynamics));
+    TRY(read_dynamics(dynamics, "dynamics", &plan->dynamics));
+    TRY(check_observe(root));
+    TRY(read_protocol(root, plan));
+    TRY(read_optional(root, "ensemble", &ensemble_options, &plan->ensemble));
+    TRY(read_optional(root, "output", &output_options, &plan->output));
+    return judge_plan(root, plan);
+}
+
+static Status read_tree(Node *root, const ConfigOverrides *overrides, bool must_fit, Plan *plan) {
+    for (size_t i = 0; overrides && i < overrides->count; i++) {
+        TRY(tree_set(root, overrides->settings[i]));
+    }
+    TRY(read_plan(root, plan));
+    return must_fit ? judge_memory(root, plan) : OK;
+}
+
+static Status read_text(Plan **out, const char *name, const char *text, size_t length,
+                        const ConfigOverrides *overrides, bool must_fit) {
+    Node *root = NULL;
+    *out = NULL;
+    TRY(tree_read(&root, name, text, length));
+    Plan *plan = NULL;
+    Status status = NEW(plan);
+    if (status == OK) status = read_tree(root, overrides, must_fit, plan);
+    tree_free(root);
+    if (status == OK) return *out = plan, OK;
+    memory_free(plan);
+    return status;
+}
+
+Status config_read_text(Plan **out, const char *name, const char *text, size_t length,
+                        const ConfigOverrides *overrides) {
+    return read_text(out, name, text, length, overrides, false);
+}
+
+Status config_read(Plan **out, const char *path, const ConfigOverrides *overrides) {
+    char *text = NULL;
+    size_t length = 0;
+    *out = NULL;
+    TRY(tree_read_file(path, &text, &length));
+    const Status status = read_text(out, path, text, length, overrides, true);
+    memory_free(text);
+    return status;
+}

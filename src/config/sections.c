@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The map of the run file, in the order in which it is written.
+#include "config/sections.h"
+
+#include "protocol/plan.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const Option title_rows[] = {
+    {"title", OPTION_TEXT, offsetof(Plan, title), 0, 0, 0, "",
+     "What this run is about, for its report."},
+};
+const OptionTable title_options = {title_rows, 1, sizeof(Plan)};
+
+static const Option method_rows[] = {
+    {"method", OPTION_TEXT, 0, 0, 0, 0, "", "How time advances: the name of a method.",
+     .required = 1},
+};
+const OptionTable method_options = {method_rows, 1, OPTION_TEXT_SIZE};
+
+const char *const root_sections[] = {"system",   "dynamics", "protocol", "observe",
+                                     "ensemble", "output",   NULL};
+
+static const Section before_methods[] = {
+    {"", NULL, "A run file is one YAML map of sections.", &title_options},
+    {"system", NULL, "The suspension: space, density, particles.", &system_options},
+    {"system.species.NAME", NULL,
+     "One kind of particles, under a name of your choice. The first species sets the unit of time "
+     "by its free diffusion coefficient D0.",
+     &species_options},
+    {"dynamics", NULL, "How time advances in all stages that do not say otherwise.",
+     &method_options},
+};
+static const Section before_observables[] = {
+    {"protocol", NULL, "The stages, in order: a list of maps.", &stage_options},
+    {"protocol.dynamics", NULL,
+     "Keys of dynamics for one stage; those not given are as for the whole run.", NULL},
+    {"protocol.observe", NULL,
+     "What is measured in the stage: a list of observables, each a name, or a map from a name to "
+     "settings for this stage.",
+     NULL},
+    {"observe", NULL,
+     "Settings of observables, used in every stage that names them: a map from names to maps.",
+     NULL},
+};
+static const Section after_observables[] = {
+    {"ensemble", NULL, "Independent samples of the same system.", &ensemble_options},
+    {"output", NULL, "What is written while the run goes on.", &output_options},
+};
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+static size_t method_count(void) {
+    size_t count = 0;
+    while (propagator_kinds[count]) count++;
+    return count;
+}
+
+static size_t observable_count(void) {
+    size_t count = 0;
+    while (observable_kinds[count]) count++;
+    return count;
+}
+
+size_t section_count(void) {
+    return COUNT(before_methods) + method_count() + COUNT(before_observables) + observable_count() +
+           COUNT(after_observables);
+}
+
+static Section section_of_method(const PropagatorKind *kind) {
+    return (Section){"dynamics", kind->name, kind->about, &kind->options};
+}
+
+static Section section_of_observable(const ObservableKind *kind) {
+    Section section = {"", NULL, kind->about, &kind->options};
+    snprintf(section.path, sizeof section.path, "observe.%s", kind->name);
+    return section;
+}
+
+Section section_at(size_t index) {
+    if (index < COUNT(before_methods)) return before_methods[index];
+    index -= COUNT(before_methods);
+    if (index < method_count()) return section_of_method(propagator_kinds[index]);
+    index -= method_count();
+    if (index < COUNT(before_observables)) return before_observables[index];
+    index -= COUNT(before_observables);
+    if (index < observable_count()) return section_of_observable(observable_kinds[index]);
+    return after_observables[index - observable_count()];
+}
+
+static bool has_key(const OptionTable *table, const char *key) {
+    const size_t length = strlen(key);
+    for (size_t i = 0; i < table->count; i++) {
+        const char *name = table->rows[i].name;
+        if (strncmp(name, key, length) == 0 && (name[length] == '\0' || name[length] == '.'))
+            return true;
+    }
+    return false;
+}
+
+bool section_of_key(const char *key, char home[SECTION_PATH_SIZE]) {
+    for (size_t i = 0; i < section_count(); i++) {
+        const Section section = section_at(i);
+        if (!section.table || !has_key(section.table, key)) continue;
+        snprintf(home, SECTION_PATH_SIZE, "%s%s%s",
+                 section.path[0] ? section.path : "the top level",
+                 section.method ? " with method: " : "", section.method ? section.method : "");
+        return true;
+    }
+    return false;
+}
+
+static const struct {
+    const char *word;
+    const char *sentence;
+} later[] = {
+    {"shear_rate", "this version has no shear; its stages are at rest"},
+    {"strain", "this version has no shear; give the stage a time"},
+    {"oscillate", "this version has no oscillatory shear; its stages are at rest"},
+    {"pull", "this version pulls no particle; its stages are at rest"},
+    {"theory", "this version has no theory; give system, dynamics and protocol"},
+    {"schematic", "this version has no theory; give system, dynamics and protocol"},
+    {"itt", "this version has no theory; give system, dynamics and protocol"},
+    {"sweep", "this version runs one point; start it once per value with --set KEY=VALUE"},
+    {"dynamic-monte-carlo", "this version has no Monte Carlo; use event-driven"},
+    {"clock", "this version has no Monte Carlo, the only method with a clock to choose"},
+    {"spherocylinder", "this version has no rods; use disc or sphere"},
+    {"platelet", "this version has no platelets; use disc or sphere"},
+    {"soft-sphere", "this version has no soft particles; use disc or sphere"},
+    {"exponent", "this version has no soft particles"},
+    {"stress", "this version does not measure it; pressure is there"},
+    {"self_scattering", "this version does not measure it; structure_factor is there"},
+    {"coherent_scattering", "this version does not measure it; structure_factor is there"},
+};
+
+const char *later_sentence(const char *word) {
+    for (size_t i = 0; i < COUNT(later); i++) {
+        if (strcmp(later[i].word, word) == 0) return later[i].sentence;
+    }
+    return NULL;
+}

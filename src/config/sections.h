@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The sections of a run file: which option table stands where. Explain, the manual and the
+// suggestions for unknown keys walk this list; the reader follows it. Inside config/ only.
+#pragma once
+
+#include "base/option.h"
+
+#include <stdbool.h>
+
+enum { SECTION_PATH_SIZE = 96 };
+
+typedef struct Section {
+    char path[SECTION_PATH_SIZE]; // "system.species.NAME", "observe.pressure"; "" for the top
+    const char *method;           // of `dynamics`: with this method only, else NULL
+    const char *about;            // one sentence
+    const OptionTable *table;     // NULL if the section has no keys of its own
+} Section;
+
+size_t section_count(void);
+Section section_at(size_t index);
+
+// Where a key belongs, as "system" or "dynamics with method: newtonian"; false if nowhere.
+bool section_of_key(const char *key, char home[SECTION_PATH_SIZE]);
+
+// What to say to a word of other engines, drives and theories that this version does not have;
+// NULL for a word that no version knows.
+const char *later_sentence(const char *word);
+
+extern const OptionTable title_options;   // `title`, of the Plan
+extern const OptionTable method_options;  // `method` of `dynamics`, a char[OPTION_TEXT_SIZE]
+extern const char *const root_sections[]; // NULL-ended: keys beside `title`
