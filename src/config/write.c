@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run file from a Plan: every value written out. Settings of observables stand in the stages, so
+// that `observe:` at the top is not needed.
+#include "config/config.h"
+
+#include "base/memory.h"
+#include "config/options.h"
+#include "config/sections.h"
+
+#include <string.h>
+
+enum { STEP = 2 }; // blanks per level
+
+static void indent(Text *text, size_t blanks) {
+    text_add(text, "%*s", (int)blanks, "");
+}
+
+// Opens the maps on the way to `name` that the row before did not: "times:" for "times.first".
+// Returns how deep the last part of the name lies.
+static size_t open_maps(const char *name, const char *before, size_t blanks, Text *text) {
+    size_t depth = 0;
+    bool same = true;
+    for (const char *part = name, *dot; (dot = strchr(part, '.')); part = dot + 1, depth++) {
+        const size_t length = (size_t)(dot + 1 - name);
+        same = same && strncmp(name, before, length) == 0;
+        if (same) continue;
+        indent(text, blanks + STEP * depth);
+        text_add(text, "%.*s:\n", (int)(dot - part), part);
+    }
+    return depth;
+}
+
+static void write_row(const Option *row, const char *before, const void *settings, size_t blanks,
+                      Text *text) {
+    const char *dot = strrchr(row->name, '.');
+    indent(text, blanks + STEP * open_maps(row->name, before, blanks, text));
+    text_add(text, "%s: ", dot ? dot + 1 : row->name);
+    option_write(row, settings, text);
+    const bool commented = row->unit[0] != '\0' && row->type != OPTION_DURATION;
+    text_add(text, commented ? " # in %s\n" : "\n", row->unit);
+}
+
+// All rows but one that is not given; NULL for `but`: all.
+static void write_table(const OptionTable *table, const char *but, const void *settings,
+                        size_t blanks, Text *text) {
+    const char *before = "";
+    for (size_t i = 0; i < table->count; i++) {
+        const Option *row = &table->rows[i];
+        if (but && strcmp(row->name, but) == 0) continue;
+        write_row(row, before, settings, blanks, text);
+        before = row->name;
+    }
+}
+
+static void write_system(const System *system, Text *text) {
+    text_add(text, "\nsystem:\n");
+    write_table(&system_options,
+                system->packing_fraction > 0 ? "number_density" : "packing_fraction", system, STEP,
+                text);
+    text_add(text, "  species:\n");
+    for (size_t s = 0; s < system->species_count; s++) {
+        text_add(text, "    %s:\n", system->species[s].name);
+        write_table(&species_options, NULL, &system->species[s], 3 * STEP, text);
+    }
+}
+
+static void write_dynamics(const Dynamics *dynamics, size_t blanks, Text *text) {
+    indent(text, blanks);
+    text_add(text, "dynamics:\n");
+    indent(text, blanks + STEP);
+    text_add(text, "method: %s\n", dynamics->kind->name);
+    write_table(&dynamics->kind->options, NULL, &dynamics->settings, blanks + STEP, text);
+}
+
+static void write_observation(const Observation *observation, Text *text) {
+    const OptionTable *table = &observation->kind->options;
+    text_add(text, "      - %s%s\n", observation->kind->name, table->count ? ":" : "");
+    write_table(table, NULL, &observation->settings, 5 * STEP, text);
+}
+
+// The unit of a stage's time depends on its method, which the table cannot know.
+static void write_stage(const Stage *stage, Text *text) {
+    for (size_t i = 0; i < stage_options.count; i++) {
+        const Option *row = &stage_options.rows[i];
+        text_add(text, "%s%s: ", i == 0 ? "  - " : "    ", row->name);
+        option_write(row, stage, text);
+        if (strcmp(row->name, "time") == 0)
+            text_add(text, " # in %s", stage->dynamics.kind->time_unit);
+        text_add(text, "\n");
+    }
+    write_dynamics(&stage->dynamics, 2 * STEP, text);
+    text_add(text, "    observe:%s\n", stage->observation_count ? "" : " []");
+    for (size_t k = 0; k < stage->observation_count; k++) {
+        write_observation(&stage->observations[k], text);
+    }
+}
+
+static void write_plan(const Plan *plan, Text *text) {
+    text_add(text, "# A run file with every value written out; `perrin explain KEY` says more.\n");
+    write_table(&title_options, NULL, plan, 0, text);
+    write_system(&plan->system, text);
+    text_add(text, "\n");
+    write_dynamics(&plan->dynamics, 0, text);
+    text_add(text, "\nprotocol:\n");
+    for (size_t s = 0; s < plan->stage_count; s++) write_stage(&plan->stages[s], text);
+    text_add(text, "\nensemble:\n");
+    write_table(&ensemble_options, NULL, &plan->ensemble, STEP, text);
+    text_add(text, "\noutput:\n");
+    write_table(&output_options, NULL, &plan->output, STEP, text);
+}
+
+Status config_write(const Plan *plan, char **out) {
+    Text text = {0};
+    write_plan(plan, &text);
+    const Status status = text_status(&text);
+    *out = status == OK ? text.bytes : NULL;
+    if (status != OK) text_free(&text);
+    return status;
+}
