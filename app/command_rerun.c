@@ -4,6 +4,7 @@
 
 #include "runner.h"
 
+#include "base/memory.h"
 #include "config/config.h"
 #include "store/store.h"
 
@@ -21,7 +22,7 @@ static Status run_again(const Arguments *arguments, const Results *results) {
     Plan *plan = NULL;
     TRY(config_read_text(&plan, arguments->operand[0], text, strlen(text), NULL));
     const Status status = runner_run(plan, &wishes, argument_given(arguments, "quiet"));
-    config_free(plan);
+    memory_free(plan);
     return status;
 }
 

@@ -4,6 +4,7 @@
 
 #include "runner.h"
 
+#include "base/memory.h"
 #include "config/config.h"
 
 #include <stdio.h>
@@ -44,7 +45,7 @@ static Status run_file(const Arguments *arguments) {
     Plan *plan = NULL;
     TRY(config_read(&plan, arguments->operand[0], &overrides));
     const Status status = runner_run(plan, &wishes, argument_given(arguments, "quiet"));
-    config_free(plan);
+    memory_free(plan);
     return status;
 }
 

@@ -33,7 +33,7 @@ static Status wrap_plan(perrin_plan **out, Plan *plan) {
     perrin_plan *wrapped = NULL;
     const Status status = NEW(wrapped);
     if (status != OK) {
-        config_free(plan);
+        memory_free(plan);
         return status;
     }
     wrapped->plan = plan;
@@ -57,7 +57,7 @@ int perrin_plan_parse(perrin_plan **out, const char *name, const char *text) {
 
 void perrin_plan_free(perrin_plan *plan) {
     if (!plan) return;
-    config_free(plan->plan);
+    memory_free(plan->plan);
     memory_free(plan);
 }
 

@@ -10,9 +10,7 @@
 #include "report/report.h"
 #include "store/store.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -58,7 +56,7 @@ void session_close(Session *session) {
     if (!session) return;
     ensemble_free(session->ensemble);
     store_close(session->store);
-    free(session->plan_text);
+    memory_free(session->plan_text);
     memory_free(session);
 }
 
