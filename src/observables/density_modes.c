@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fourier components of the density: powers of one exponential per particle and axis by
+// recurrence, block by block.
+#include "observables/density_modes.h"
+
+#include "base/cpu.h"
+#include "base/memory.h"
+#include "numerics/turn.h"
+
+#include <stdlib.h>
+
+static size_t table_size(int32_t most) {
+    return ((size_t)most + 1) * MODES_BLOCK;
+}
+
+static Status allocate(DensityModes *modes) {
+    for (int a = 0; a < modes->dimension; a++) {
+        PowerTable *table = &modes->table[a];
+        for (size_t v = 0; v < modes->count; v++) {
+            const int32_t n = abs(modes->vectors[v].n[a]);
+            if (n > table->most) table->most = n;
+        }
+        TRY(NEW_ARRAY(table->cosine, table_size(table->most)));
+        TRY(NEW_ARRAY(table->sine, table_size(table->most)));
+    }
+    return OK;
+}
+
+Status density_modes_create(DensityModes **out, int dimension, const LatticeVector *vectors,
+                            size_t count) {
+    DensityModes *modes = NULL;
+    TRY(NEW(modes));
+    *modes = (DensityModes){.dimension = dimension, .count = count, .vectors = vectors};
+    const Status status = allocate(modes);
+    if (status != OK) {
+        density_modes_free(modes);
+        return status;
+    }
+    *out = modes;
+    return OK;
+}
+
+void density_modes_free(DensityModes *modes) {
+    if (!modes) return;
+    for (int a = 0; a < 3; a++) {
+        memory_free(modes->table[a].cosine);
+        memory_free(modes->table[a].sine);
+    }
+    memory_free(modes);
+}
+
+size_t density_modes_memory(const int32_t most[3], int dimension) {
+    size_t bytes = sizeof(DensityModes);
+    for (int a = 0; a < dimension; a++) bytes += 2 * table_size(most[a]) * sizeof(double);
+    return bytes;
+}
+
+// Powers of particle `position` into column `lane`; an empty column (no position) is all zero.
+static void fill_column(PowerTable *table, size_t lane, const double *position, double edge) {
+    double cosine = 0, sine = 0, c = position ? 1 : 0, s = 0;
+    if (position) turn_cosine_sine(*position / edge, &cosine, &sine);
+    for (int32_t n = 0; n <= table->most; n++) {
+        table->cosine[(size_t)n * MODES_BLOCK + lane] = c;
+        table->sine[(size_t)n * MODES_BLOCK + lane] = s;
+        const double turned = c * cosine - s * sine;
+        s = c * sine + s * cosine;
+        c = turned;
+    }
+}
+
+static void add_block(const DensityModes *modes, double *real, double *imaginary) {
+    static void (*const kernels[CPU_PATHS])(const DensityModes *, double *, double *) = {
+        density_block_portable, density_block_avx2, density_block_avx512};
+    kernels[cpu_path()](modes, real, imaginary);
+}
+
+void density_modes_add(DensityModes *modes, const Box *box, double *const position[3], size_t begin,
+                       size_t end, double *real, double *imaginary) {
+    for (size_t block = begin; block < end; block += MODES_BLOCK) {
+        for (size_t lane = 0; lane < MODES_BLOCK; lane++) {
+            const size_t i = block + lane;
+            for (int a = 0; a < modes->dimension; a++) {
+                fill_column(&modes->table[a], lane, i < end ? &position[a][i] : NULL, box->edge[a]);
+            }
+        }
+        add_block(modes, real, imaginary);
+    }
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fourier components of the density, rho(q) = sum over particles of exp(i q.r), on vectors of the
+// reciprocal lattice of the box.
+#pragma once
+
+#include "base/status.h"
+#include "box/box.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+// q = 2 pi (n[0]/L_x, n[1]/L_y, n[2]/L_z).
+typedef struct LatticeVector {
+    int32_t n[3];
+} LatticeVector;
+
+// Particles at a time: their powers of exp(2 pi i x/L) lie in `table` while all vectors are run.
+enum { MODES_BLOCK = 64, MODES_LANES = 8 };
+
+// Powers 0..most of exp(2 pi i x/L) of one axis: cosine[n][MODES_BLOCK], then sine[n][MODES_BLOCK].
+typedef struct PowerTable {
+    int32_t most;
+    double *cosine, *sine;
+} PowerTable;
+
+typedef struct DensityModes {
+    int dimension;
+    size_t count;
+    const LatticeVector *vectors; // sorted by n[0], then n[1]: neighbours share products
+    PowerTable table[3];
+} DensityModes;
+
+// Borrows the vectors; n[0] >= 0 in each.
+Status density_modes_create(DensityModes **out, int dimension, const LatticeVector *vectors,
+                            size_t count);
+void density_modes_free(DensityModes *modes);
+size_t density_modes_memory(const int32_t most[3], int dimension);
+
+// Adds rho(q) of particles [begin, end) to real[], imaginary[]. Same bits on every cpu_path.
+void density_modes_add(DensityModes *modes, const Box *box, double *const position[3], size_t begin,
+                       size_t end, double *real, double *imaginary);
+
+// The same for one block that lies in the tables: an instance for each instruction set.
+void density_block_portable(const DensityModes *modes, double *real, double *imaginary);
+void density_block_avx2(const DensityModes *modes, double *real, double *imaginary);
+void density_block_avx512(const DensityModes *modes, double *real, double *imaginary);

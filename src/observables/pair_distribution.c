@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Partial pair distribution functions g_ab(r): the density of b around a, over that of an ideal gas
+// of the same N (pairs of different particles are counted, so that an ideal gas gives 1). Close to
+// contact the same is histogrammed finely in the scaled distance r/d_ij, d_ij = (d_i + d_j)/2,
+// where the pairs of a polydisperse species meet at 1: its value at contact gives the pressure by
+// the virial theorem, independently of the collisions (Weysser, thesis, eq. 2.6 ff.),
+//   P V/(N kT) = 1 + sum over pairs ab of w_ab g_ab(1),
+//   w_ab = Omega/(dim N V) * sum over the pairs i in a, j in b of d_ij^dim, Omega = 2 pi or 4 pi.
+#include "base/constants.h"
+#include "base/memory.h"
+#include "observables/labels.h"
+#include "observables/looks.h"
+#include "observables/near_pairs.h"
+#include "observables/put.h"
+
+#include <math.h>
+
+typedef struct PairSettings {
+    double last, spacing, contact_last, contact_spacing;
+    int64_t looks;
+} PairSettings;
+
+static const Option rows[] = {
+    {.name = "distances.last",
+     .type = OPTION_REAL,
+     .offset = offsetof(PairSettings, last),
+     .least = 0,
+     .most = 1e6,
+     .unit = "d",
+     .about = "Largest distance; 0 is 5 d, or half of the shortest edge if that is less."},
+    {.name = "distances.spacing",
+     .type = OPTION_REAL,
+     .offset = offsetof(PairSettings, spacing),
+     .fallback = 0.02,
+     .least = 1e-4,
+     .most = 1,
+     .unit = "d",
+     .about = "Width of a bin of g(r)."},
+    {.name = "contact.last",
+     .type = OPTION_REAL,
+     .offset = offsetof(PairSettings, contact_last),
+     .fallback = 1.2,
+     .least = 1.001,
+     .most = 2,
+     .unit = "",
+     .about = "End of the fine histogram near contact, in units of the pair's contact distance."},
+    {.name = "contact.spacing",
+     .type = OPTION_REAL,
+     .offset = offsetof(PairSettings, contact_spacing),
+     .fallback = 0.002,
+     .least = 1e-5,
+     .most = 0.1,
+     .unit = "",
+     .about = "Width of its bins, in the same units."},
+    {.name = "looks",
+     .type = OPTION_INTEGER,
+     .offset = offsetof(PairSettings, looks),
+     .fallback = 500,
+     .least = 1,
+     .most = 10000000,
+     .unit = "",
+     .about = "Configurations looked at, evenly over the stage: at most this many."},
+};
+
+typedef struct PairDistribution {
+    Observer observer;
+    double last, spacing, contact_spacing;
+    double range; // within which pairs are looked for
+    int64_t period;
+    size_t bins, contact_bins, species_count;
+    uint64_t looks;
+    uint64_t *counts;         // [pair][bins]
+    uint64_t *contact_counts; // [pair][contact_bins]
+    NearPairs *pairs;
+} PairDistribution;
+
+static const double USUAL_RANGE = 5; // d: where g(r) of a fluid is close to 1
+
+static double range_for(const PairSettings *settings, const Box *box) {
+    double half = box->edge[0] / 2;
+    for (int a = 1; a < box->dimension; a++) half = fmin(half, box->edge[a] / 2);
+    return settings->last > 0 ? settings->last : fmin(USUAL_RANGE, half);
+}
+
+static Status check(const Settings *settings_, const System *system, const Clock *clock) {
+    (void)clock;
+    const PairSettings *settings = (const PairSettings *)settings_->bytes;
+    const Box box = system_box(system);
+    for (int a = 0; a < box.dimension; a++) {
+        if (settings->last <= box.edge[a] / 2) continue;
+        return status_fail(BAD_DATA,
+                           "pair_distribution: distances.last = %g exceeds half of the box edge "
+                           "%g, beyond which a particle meets its own images; make it shorter",
+                           settings->last, box.edge[a]);
+    }
+    return OK;
+}
+
+static size_t bins_for(double length, double spacing) {
+    return (size_t)ceil(length / spacing - 1e-9);
+}
+
+// A pair of the widest particles has to be found as far out as the contact histogram goes.
+static double search_range(const PairDistribution *self, const State *state) {
+    double widest = 0, half = state->box.edge[0] / 2;
+    for (size_t i = 0; i < state->count; i++) widest = fmax(widest, state->diameter[i]);
+    for (int a = 1; a < state->box.dimension; a++) half = fmin(half, state->box.edge[a] / 2);
+    const double contact = widest * (1 + (double)self->contact_bins * self->contact_spacing);
+    return fmin(half, fmax(self->last, contact));
+}
+
+static Status allocate(PairDistribution *self, const State *state) {
+    const size_t pairs = pair_count(self->species_count);
+    TRY(NEW_ARRAY(self->counts, pairs * self->bins));
+    TRY(NEW_ARRAY(self->contact_counts, pairs * self->contact_bins));
+    return near_pairs_create(&self->pairs, &state->box, state->count, self->range);
+}
+
+static void discard(Observer *observer) {
+    PairDistribution *self = (PairDistribution *)observer;
+    memory_free(self->counts);
+    memory_free(self->contact_counts);
+    near_pairs_free(self->pairs);
+    memory_free(self);
+}
+
+static Status create(Observer **out, const Settings *settings_, const State *state,
+                     const Clock *clock) {
+    const PairSettings *settings = (const PairSettings *)settings_->bytes;
+    PairDistribution *self = NULL;
+    TRY(NEW(self));
+    self->observer = (Observer){.kind = &observable_pair_distribution, .clock = *clock};
+    self->last = range_for(settings, &state->box);
+    self->spacing = settings->spacing;
+    self->contact_spacing = settings->contact_spacing;
+    self->bins = bins_for(self->last, self->spacing);
+    self->contact_bins = bins_for(settings->contact_last - 1, settings->contact_spacing);
+    self->range = search_range(self, state);
+    self->species_count = state->system.species_count;
+    self->period = looks_period(clock, settings->looks);
+    const Status status = allocate(self, state);
+    if (status != OK) {
+        discard(&self->observer);
+        return status;
+    }
+    *out = &self->observer;
+    return OK;
+}
+
+static int64_t next(const Observer *observer, int64_t after) {
+    return looks_next(&observer->clock, ((const PairDistribution *)observer)->period, after);
+}
+
+static void count_pair(PairDistribution *self, const State *state, size_t i, size_t j, double r) {
+    const size_t pair = pair_index(state->species_of[i], state->species_of[j], self->species_count);
+    const double bin = r / self->spacing;
+    if (bin < (double)self->bins) self->counts[pair * self->bins + (size_t)bin]++;
+    const double contact = (state->diameter[i] + state->diameter[j]) / 2;
+    const double gap = fmax((r / contact - 1) / self->contact_spacing, 0);
+    if (gap < (double)self->contact_bins) {
+        self->contact_counts[pair * self->contact_bins + (size_t)gap]++;
+    }
+}
+
+static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
+    (void)tick;
+    (void)tally;
+    PairDistribution *self = (PairDistribution *)observer;
+    near_pairs_sort(self->pairs, state);
+    for (size_t slot = 0; slot < state->count; slot++) {
+        const size_t candidates = near_pairs_row(self->pairs, slot);
+        const size_t i = self->pairs->particle[slot];
+        for (size_t k = 0; k < candidates; k++) {
+            if (self->pairs->square[k] >= self->range * self->range) continue;
+            count_pair(self, state, i, self->pairs->partner[k], sqrt(self->pairs->square[k]));
+        }
+    }
+    self->looks++;
+    return OK;
+}
+
+static const uint64_t PAIRS_TAG = 0x5041495253303031; // "PAIRS001"
+
+static void archive(Observer *observer, Archive *archive) {
+    PairDistribution *self = (PairDistribution *)observer;
+    const size_t pairs = pair_count(self->species_count);
+    archive_tag(archive, PAIRS_TAG);
+    archive_u64(archive, &self->looks, 1);
+    archive_u64(archive, self->counts, pairs * self->bins);
+    archive_u64(archive, self->contact_counts, pairs * self->contact_bins);
+}
+
+// Volume of the ball of this radius.
+static double ball(int dimension, double radius) {
+    return dimension == 2 ? PI * radius * radius : 4 * PI / 3 * radius * radius * radius;
+}
+
+// Sums over the pairs of different particles, i of species a and j of species b.
+typedef struct PairSums {
+    double number;
+    double contact; // of d_ij^dim
+} PairSums;
+
+static PairSums sums_over_pairs(const State *state, size_t a, size_t b) {
+    // sum of (d_i + d_j)^dim = sum of binomials times products of the moments of each species
+    const int dimension = state->box.dimension;
+    double moment[2][4] = {{0}}, itself = 0;
+    for (size_t i = 0; i < state->count; i++) {
+        const double d = state->diameter[i];
+        const double power[4] = {1, d, d * d, d * d * d};
+        for (int p = 0; p <= dimension; p++) {
+            moment[0][p] += state->species_of[i] == a ? power[p] : 0;
+            moment[1][p] += state->species_of[i] == b ? power[p] : 0;
+        }
+        itself += state->species_of[i] == a && a == b ? power[dimension] : 0;
+    }
+    static const double binomial[2][4] = {{1, 2, 1, 0}, {1, 3, 3, 1}};
+    double contact = 0;
+    for (int p = 0; p <= dimension; p++) {
+        contact += binomial[dimension - 2][p] * moment[0][p] * moment[1][dimension - p];
+    }
+    contact /= dimension == 2 ? 4 : 8;
+    const double same = a == b ? moment[0][0] : 0, share = a == b ? 0.5 : 1;
+    return (PairSums){.number = share * (moment[0][0] * moment[1][0] - same),
+                      .contact = share * (contact - itself)};
+}
+
+static Status put_distribution(const PairDistribution *self, const State *state,
+                               const Labels *labels, double *values, double *centres,
+                               Results *results, size_t replica) {
+    const double volume = box_volume(&state->box);
+    size_t pair = 0;
+    for (size_t a = 0; a < self->species_count; a++) {
+        for (size_t b = a; b < self->species_count; b++, pair++) {
+            const double number = sums_over_pairs(state, a, b).number;
+            for (size_t k = 0; k < self->bins; k++) {
+                const double shell = ball(state->box.dimension, (double)(k + 1) * self->spacing) -
+                                     ball(state->box.dimension, (double)k * self->spacing);
+                values[pair * self->bins + k] = (double)self->counts[pair * self->bins + k] /
+                                                ((double)self->looks * number * shell / volume);
+            }
+        }
+    }
+    for (size_t k = 0; k < self->bins; k++) centres[k] = ((double)k + 0.5) * self->spacing;
+    const ResultSeries shape = {
+        .unit = "",
+        .about = "Partial pair distribution g_ab(r), relative to an ideal gas of as many pairs.",
+        .axes = 2,
+        .axis = {{.name = "pair", .unit = "", .count = labels->count, .labels = labels->names},
+                 {.name = "distance", .unit = "d", .count = self->bins, .values = centres}}};
+    return observer_put_series(&self->observer, "pair_distribution", &shape, results, replica,
+                               values);
+}
+
+static Status put_contact(const PairDistribution *self, const State *state, const Labels *labels,
+                          double *values, double *centres, Results *results, size_t replica) {
+    const double volume = box_volume(&state->box);
+    const int dimension = state->box.dimension;
+    size_t pair = 0;
+    for (size_t a = 0; a < self->species_count; a++) {
+        for (size_t b = a; b < self->species_count; b++, pair++) {
+            const double contact = sums_over_pairs(state, a, b).contact;
+            for (size_t k = 0; k < self->contact_bins; k++) {
+                const size_t at = pair * self->contact_bins + k;
+                const double shell = ball(dimension, 1 + (double)(k + 1) * self->contact_spacing) -
+                                     ball(dimension, 1 + (double)k * self->contact_spacing);
+                values[at] = (double)self->contact_counts[at] /
+                             ((double)self->looks * contact * shell / volume);
+            }
+        }
+    }
+    for (size_t k = 0; k < self->contact_bins; k++) {
+        centres[k] = 1 + ((double)k + 0.5) * self->contact_spacing;
+    }
+    const ResultSeries shape = {
+        .unit = "",
+        .about = "Partial pair distribution against distance over contact distance, r/d_ij.",
+        .axes = 2,
+        .axis = {{.name = "pair", .unit = "", .count = labels->count, .labels = labels->names},
+                 {.name = "scaled_distance",
+                  .unit = "",
+                  .count = self->contact_bins,
+                  .values = centres}}};
+    return observer_put_series(&self->observer, "contact_distribution", &shape, results, replica,
+                               values);
+}
+
+static Status put_weights(const PairDistribution *self, const State *state, const Labels *labels,
+                          Results *results, size_t replica) {
+    const int dimension = state->box.dimension;
+    const double solid_angle = dimension == 2 ? 2 * PI : 4 * PI;
+    double weights[PAIRS_MOST];
+    size_t pair = 0;
+    for (size_t a = 0; a < self->species_count; a++) {
+        for (size_t b = a; b < self->species_count; b++) {
+            weights[pair++] = solid_angle * sums_over_pairs(state, a, b).contact /
+                              ((double)dimension * (double)state->count * box_volume(&state->box));
+        }
+    }
+    const ResultSeries shape = {
+        .unit = "",
+        .about = "Weights w of the contact values in P V/(N kT) = 1 + sum of w_ab g_ab(contact).",
+        .axes = 1,
+        .axis = {{.name = "pair", .unit = "", .count = labels->count, .labels = labels->names}}};
+    return observer_put_series(&self->observer, "contact_weight", &shape, results, replica,
+                               weights);
+}
+
+static Status write(const Observer *observer, const State *state, Results *results,
+                    size_t replica) {
+    const PairDistribution *self = (const PairDistribution *)observer;
+    const size_t bins = self->bins > self->contact_bins ? self->bins : self->contact_bins;
+    Labels labels;
+    labels_of_pairs(&labels, &state->system, NULL);
+    double *values = NULL, *centres = NULL;
+    Status status = NEW_ARRAY(values, labels.count * bins);
+    if (status == OK) status = NEW_ARRAY(centres, bins);
+    if (status == OK) {
+        status = put_distribution(self, state, &labels, values, centres, results, replica);
+    }
+    if (status == OK) status = put_contact(self, state, &labels, values, centres, results, replica);
+    if (status == OK) status = put_weights(self, state, &labels, results, replica);
+    memory_free(values);
+    memory_free(centres);
+    return status;
+}
+
+static size_t memory(const Settings *settings_, const System *system, const Clock *clock) {
+    (void)clock;
+    const PairSettings *settings = (const PairSettings *)settings_->bytes;
+    const Box box = system_box(system);
+    const double range = range_for(settings, &box);
+    const size_t bins = bins_for(range, settings->spacing) +
+                        bins_for(settings->contact_last - 1, settings->contact_spacing);
+    return sizeof(PairDistribution) + pair_count(system->species_count) * bins * sizeof(uint64_t) +
+           near_pairs_memory(system, range);
+}
+
+const ObservableKind observable_pair_distribution = {
+    .name = "pair_distribution",
+    .about = "Partial pair distribution functions g_ab(r), finely resolved near contact, where "
+             "they give the pressure.",
+    .options = {rows, sizeof rows / sizeof *rows, sizeof(PairSettings)},
+    .check = check,
+    .create = create,
+    .next = next,
+    .see = see,
+    .archive = archive,
+    .write = write,
+    .free = discard,
+    .memory = memory,
+};

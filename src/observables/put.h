@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// An observer's numbers under its stage's name.
+#pragma once
+
+#include "observables/observables.h"
+
+// `shape` has unit, about, axes and axis; stage and name are filled in.
+Status observer_put_series(const Observer *observer, const char *name, const ResultSeries *shape,
+                           Results *results, size_t replica, const double *values);
+
+Status observer_put_scalar(const Observer *observer, const char *quantity, const char *unit,
+                           const char *about, Results *results, size_t replica, double value);

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One configuration, for a picture: where the particles of one replica were at the start or at the
+// end of the stage.
+#include "base/memory.h"
+#include "observables/labels.h"
+#include "observables/put.h"
+
+typedef enum Moment { MOMENT_LAST, MOMENT_FIRST } Moment;
+
+typedef struct SnapshotSettings {
+    int64_t moment, replica;
+} SnapshotSettings;
+
+static const char *const moments[] = {"last", "first", NULL};
+
+static const Option rows[] = {
+    {.name = "moment",
+     .type = OPTION_CHOICE,
+     .offset = offsetof(SnapshotSettings, moment),
+     .fallback = MOMENT_LAST,
+     .unit = "",
+     .choices = moments,
+     .about = "Whether the configuration at the end or at the start of the stage is kept."},
+    {.name = "replica",
+     .type = OPTION_INTEGER,
+     .offset = offsetof(SnapshotSettings, replica),
+     .fallback = 0,
+     .least = 0,
+     .most = 99999,
+     .unit = "",
+     .about = "The replica whose configuration is kept; the first is 0."},
+};
+
+// Columns of a particle's row, here and in the results.
+enum { COLUMN_X, COLUMN_Y, COLUMN_Z, COLUMN_DIAMETER, COLUMN_SPECIES, COLUMNS };
+
+typedef struct Snapshot {
+    Observer observer;
+    SnapshotSettings settings;
+    size_t particles;
+    double *rows; // [particles][COLUMNS]
+} Snapshot;
+
+static void discard(Observer *observer) {
+    memory_free(((Snapshot *)observer)->rows);
+    memory_free(observer);
+}
+
+static Status create(Observer **out, const Settings *settings, const State *state,
+                     const Clock *clock) {
+    Snapshot *snapshot = NULL;
+    TRY(NEW(snapshot));
+    snapshot->observer = (Observer){.kind = &observable_snapshot, .clock = *clock};
+    snapshot->settings = *(const SnapshotSettings *)settings->bytes;
+    snapshot->particles = state->count;
+    const Status status = NEW_ARRAY(snapshot->rows, COLUMNS * state->count);
+    if (status != OK) {
+        discard(&snapshot->observer);
+        return status;
+    }
+    *out = &snapshot->observer;
+    return OK;
+}
+
+static int64_t next(const Observer *observer, int64_t after) {
+    const Snapshot *snapshot = (const Snapshot *)observer;
+    const int64_t wanted = snapshot->settings.moment == MOMENT_FIRST ? 0 : observer->clock.ticks;
+    return after < wanted ? wanted : INT64_MAX;
+}
+
+static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
+    (void)tick;
+    (void)tally;
+    double *row = ((Snapshot *)observer)->rows;
+    for (size_t i = 0; i < state->count; i++, row += COLUMNS) {
+        for (int a = 0; a < 3; a++) row[COLUMN_X + a] = state->position[a][i];
+        row[COLUMN_DIAMETER] = state->diameter[i];
+        row[COLUMN_SPECIES] = state->species_of[i];
+    }
+    return OK;
+}
+
+static const uint64_t SNAPSHOT_TAG = 0x534e415053303031; // "SNAPS001"
+
+static void archive(Observer *observer, Archive *archive) {
+    Snapshot *snapshot = (Snapshot *)observer;
+    archive_tag(archive, SNAPSHOT_TAG);
+    archive_f64(archive, snapshot->rows, COLUMNS * snapshot->particles);
+}
+
+static Status put_particles(const Snapshot *snapshot, const double *ids, Results *results,
+                            size_t replica) {
+    static const char *const columns[COLUMNS] = {"x", "y", "z", "diameter", "species"};
+    const ResultSeries shape = {
+        .unit = "d",
+        .about = "Folded positions, diameters, and the number of the species (from 0) of the "
+                 "particles of one replica.",
+        .axes = 2,
+        .axis = {{.name = "particle", .unit = "", .count = snapshot->particles, .values = ids},
+                 {.name = "column", .unit = "", .count = COLUMNS, .labels = columns}}};
+    return observer_put_series(&snapshot->observer, "snapshot", &shape, results, replica,
+                               snapshot->rows);
+}
+
+static Status put_box(const Snapshot *snapshot, const Box *box, Results *results, size_t replica) {
+    static const char *const axes[3] = {"x", "y", "z"};
+    const ResultSeries shape = {
+        .unit = "d",
+        .about = "Edges of the box.",
+        .axes = 1,
+        .axis = {
+            {.name = "direction", .unit = "", .count = (size_t)box->dimension, .labels = axes}}};
+    return observer_put_series(&snapshot->observer, "snapshot_box", &shape, results, replica,
+                               box->edge);
+}
+
+static Status write(const Observer *observer, const State *state, Results *results,
+                    size_t replica) {
+    const Snapshot *snapshot = (const Snapshot *)observer;
+    if ((int64_t)replica != snapshot->settings.replica) return OK;
+    double *ids = NULL;
+    TRY(NEW_ARRAY(ids, snapshot->particles));
+    for (size_t i = 0; i < snapshot->particles; i++) ids[i] = (double)i;
+    Status status = put_particles(snapshot, ids, results, replica);
+    if (status == OK) status = put_box(snapshot, &state->box, results, replica);
+    memory_free(ids);
+    return status;
+}
+
+static size_t memory(const Settings *settings, const System *system, const Clock *clock) {
+    (void)settings;
+    (void)clock;
+    return sizeof(Snapshot) + (size_t)system->particles * COLUMNS * sizeof(double);
+}
+
+const ObservableKind observable_snapshot = {
+    .name = "snapshot",
+    .about = "The first or last configuration of one replica: positions, diameters, species.",
+    .options = {rows, sizeof rows / sizeof *rows, sizeof(SnapshotSettings)},
+    .create = create,
+    .next = next,
+    .see = see,
+    .archive = archive,
+    .write = write,
+    .free = discard,
+    .memory = memory,
+};
