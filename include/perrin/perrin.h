@@ -18,13 +18,13 @@ extern "C" {
 
 enum {
     PERRIN_OK = 0,
-    PERRIN_BAD_USAGE = 2,    /**< an argument that makes no sense, or a name that is not there */
-    PERRIN_BAD_DATA = 65,    /**< a run file or a stored file that cannot be used */
-    PERRIN_UNHEALTHY = 70,   /**< a health limit was broken; the results say which */
+    PERRIN_BAD_USAGE = 2,  /**< an argument that makes no sense, or a name that is not there */
+    PERRIN_BAD_DATA = 65,  /**< a run file or a stored file that cannot be used */
+    PERRIN_UNHEALTHY = 70, /**< a health limit was broken; the results say which */
     PERRIN_NO_MEMORY = 71,
-    PERRIN_LOCKED = 73,      /**< the directory is in use, or holds another plan */
-    PERRIN_IO_FAILED = 74,   /**< disk or file system */
-    PERRIN_INTERRUPTED = 75  /**< stopped on request after a checkpoint; run again to resume */
+    PERRIN_LOCKED = 73,     /**< the directory is in use, or holds another plan */
+    PERRIN_IO_FAILED = 74,  /**< disk or file system */
+    PERRIN_INTERRUPTED = 75 /**< stopped on request after a checkpoint; run again to resume */
 };
 
 typedef struct perrin_plan perrin_plan;       /**< a run file, read and checked */
@@ -42,8 +42,7 @@ void perrin_plan_free(perrin_plan *plan);
 
 /** Starts, or resumes, the plan in `directory`. threads = 0: as many as processors. The plan must
  * live until perrin_run_finish. */
-int perrin_run_start(perrin_run **out, const perrin_plan *plan, const char *directory,
-                     int threads);
+int perrin_run_start(perrin_run **out, const perrin_plan *plan, const char *directory, int threads);
 double perrin_run_progress(const perrin_run *run); /**< fraction of the work done, 0 to 1 */
 /** Asks for a checkpoint and an end; returns at once. May be called from another thread. */
 void perrin_run_stop(perrin_run *run);
@@ -79,9 +78,9 @@ typedef struct perrin_series {
     size_t count[PERRIN_AXES_MOST];
     const char *axis_name[PERRIN_AXES_MOST];
     const char *axis_unit[PERRIN_AXES_MOST];
-    const double *axis_values[PERRIN_AXES_MOST];       /**< NULL for an axis of labels */
-    const char *const *axis_labels[PERRIN_AXES_MOST];  /**< NULL for an axis of numbers */
-    size_t size;                                       /**< product of the counts */
+    const double *axis_values[PERRIN_AXES_MOST];      /**< NULL for an axis of labels */
+    const char *const *axis_labels[PERRIN_AXES_MOST]; /**< NULL for an axis of numbers */
+    size_t size;                                      /**< product of the counts */
 } perrin_series;
 
 int perrin_results_series(const perrin_results *results, const char *name, perrin_series *out);

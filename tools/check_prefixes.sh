@@ -1,0 +1,35 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Every external name of the library begins with its module's name, or with a word that
+# src/layers.txt gives the module. Takes the build folder. Prints FILE: name; fails if there is one.
+set -eu
+build=$(cd "${1:-build}" && pwd)
+cd "$(dirname "$0")/.."
+objects=$build/CMakeFiles/perrin.dir/src
+[ -d "$objects" ] || { echo "prefixes: no library in $build; make build first" >&2; exit 1; }
+
+(cd "$objects" && find . -name '*.o' | sort | xargs nm -A -g --defined-only) | awk '
+    FILENAME == "src/layers.txt" {
+        if (!/^names /) next
+        colon = index($0, ":")
+        split($0, head, /[ :]+/)
+        n = split(substr($0, colon + 1), word, " ")
+        for (i = 1; i <= n; i++) allowed[head[2], word[i]] = 1
+        next
+    }
+    {
+        split($1, part, "/")
+        module = part[2]
+        file = part[2] "/" part[3]
+        sub(/\.o:.*/, "", file)
+        name = $NF
+        first = name
+        sub(/_.*/, "", first)
+        if (name ~ /^__(asan|odr|start|stop|sanitizer)/) next
+        if (first == module || (module, first) in allowed) next
+        print "src/" file ": " name
+        bad = 1
+    }
+    END { exit bad }
+' src/layers.txt - || { echo "prefixes: external names without their module in front" >&2; exit 1; }
+echo "prefixes: every external name tells its module"
