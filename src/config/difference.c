@@ -50,7 +50,7 @@ static const Node *counterpart(const Node *parent, const Node *entry) {
 // Lists of stages and of observables are compared entry by entry, lists of numbers as a whole.
 static bool has_parts(const Node *node) {
     const bool list_of_maps =
-        node->kind == NODE_LIST && node->first && node->first->kind == NODE_MAP;
+        node->kind == NODE_LIST && (!node->first || node->first->kind == NODE_MAP);
     return node->kind == NODE_MAP || list_of_maps;
 }
 

@@ -11,7 +11,7 @@ const char *const spread_names[SPREADS + 1] = {"none", "gaussian", "uniform", NU
 static const Option system_rows[] = {
     {"dimension", OPTION_INTEGER, offsetof(System, dimension), 0, 2, 3, "", "Dimension of space.",
      .required = 1},
-    {"particles", OPTION_INTEGER, offsetof(System, particles), 0, 2, 1e8, "",
+    {"particles", OPTION_INTEGER, offsetof(System, particles), 0, 2, 2e9, "",
      "Number of particles of one replica.", .required = 1},
     {"packing_fraction", OPTION_REAL, offsetof(System, packing_fraction), 0, 0, 1, "",
      "Fraction of the volume (area in 2D) that the particles fill; give this or number_density."},

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// perrin check FILE.yaml: reads a run file, says what would be run, and runs nothing.
+#include "command.h"
+
+#include "base/memory.h"
+#include "config/config.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const double MEBIBYTE = 1048576;
+
+static void print_system(const System *system) {
+    const int dimension = (int)system->dimension;
+    const Box box = system_box(system);
+    printf("system    %lld particles in %d dimensions\n", (long long)system->particles, dimension);
+    printf("          packing fraction %.6g, number density %.6g d^-%d\n",
+           system_packing_fraction(system), system_number_density(system), dimension);
+    printf("          box %.6g", box.edge[0]);
+    for (int axis = 1; axis < dimension; axis++) printf(" x %.6g", box.edge[axis]);
+    printf(" d\n");
+}
+
+// The thermostat gives every species D = kT Delta/(2 m), so that D_a/D0 = m_first/m_a.
+static void print_species(const System *system) {
+    size_t counts[SPECIES_MOST];
+    system_counts(system, counts);
+    printf("species   %-16s %10s %10s %10s %10s %10s\n", "", "number", "diameter/d", "spread",
+           "mass/m", "D/D0");
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Species *species = &system->species[s];
+        printf("          %-16s %10zu %10.6g %10.6g %10.6g %10.6g\n", species->name, counts[s],
+               species->diameter, species->spread == SPREAD_NONE ? 0 : species->spread_width,
+               species->mass, system->species[0].mass / species->mass);
+    }
+}
+
+// One interval, seen by both clocks, gives D0.
+static void print_stage(const Plan *plan, size_t index) {
+    const Stage *stage = &plan->stages[index];
+    const Clock clock = plan_clock(plan, index);
+    const double steps = (double)(clock.ticks / clock.ticks_per_step);
+    printf("stage     %-16s %s, %.6g %s in %.0f steps of %.6g\n", stage->name,
+           stage->dynamics.kind->name, stage->time, clock.unit, steps,
+           clock.tick * (double)clock.ticks_per_step);
+    if (clock.thermostatted)
+        printf("          %-16s D0 = %.6g d sqrt(kT/m)\n", "", clock.tick / clock.flight_time);
+    for (size_t k = 0; k < stage->observation_count; k++) {
+        printf("          %-16s %s\n", k == 0 ? "  observes" : "",
+               stage->observations[k].kind->name);
+    }
+}
+
+static void print_seconds(double seconds) {
+    if (seconds < 100)
+        printf("%.2g s", seconds);
+    else if (seconds < 100 * 60)
+        printf("%.3g min", seconds / 60);
+    else
+        printf("%.3g h", seconds / 3600);
+}
+
+static void print_cost(const Plan *plan) {
+    const double replicas = (double)plan->ensemble.replicas;
+    const double cores = fmin((double)sysconf(_SC_NPROCESSORS_ONLN), replicas);
+    const double memory = (double)plan_memory(plan) / MEBIBYTE;
+    const double seconds = plan_seconds(plan);
+    printf("memory    %.3g MiB per replica, %.3g MiB for all %.0f\n", memory, memory * replicas,
+           replicas);
+    printf("time      about ");
+    print_seconds(seconds);
+    printf(" per replica, ");
+    print_seconds(seconds * ceil(replicas / cores));
+    printf(" for all on %.0f cores, without packing\n", cores);
+}
+
+static void print_plan(const Plan *plan) {
+    if (plan->title[0] != '\0') printf("%s\n", plan->title);
+    print_system(&plan->system);
+    print_species(&plan->system);
+    for (size_t s = 0; s < plan->stage_count; s++) print_stage(plan, s);
+    printf("ensemble  %lld replicas, seed %lld\n", (long long)plan->ensemble.replicas,
+           (long long)plan->ensemble.seed);
+    print_cost(plan);
+}
+
+static Status print_written(const Plan *plan) {
+    char *text = NULL;
+    TRY(config_write(plan, &text));
+    fputs(text, stdout);
+    memory_free(text);
+    return OK;
+}
+
+static Status check(const Arguments *arguments) {
+    const char *settings[GIVEN_MOST];
+    ConfigOverrides overrides = {0, settings};
+    for (size_t i = 0; i < arguments->given; i++) {
+        if (strcmp(arguments->flag[i].flag, "set") == 0)
+            settings[overrides.count++] = arguments->flag[i].value;
+    }
+    Plan *plan = NULL;
+    TRY(config_read(&plan, arguments->operand[0], &overrides));
+    Status status = OK;
+    if (argument_given(arguments, "all"))
+        status = print_written(plan);
+    else
+        print_plan(plan);
+    memory_free(plan);
+    return status;
+}
+
+static const Flag flags[] = {
+    {0, "set", "KEY=VALUE", "Replace a value of the run file; may be given several times."},
+    {0, "all", NULL, "Print the run file with all defaults written out instead."},
+    {0},
+};
+
+const Command command_check = {
+    .name = "check",
+    .operands = "FILE.yaml",
+    .about = "Check a run file and say what it would do; run nothing.",
+    .flags = flags,
+    .least = 1,
+    .most = 1,
+    .run = check,
+};
