@@ -122,7 +122,7 @@ static Status write_report(Session *session, const Results *results) {
 
 static Status keep_results(Session *session, Results *results, double seconds) {
     TRY(put_provenance(session, results, seconds));
-    TRY(analysis_derive(results, session->plan));
+    TRY(analysis_derive(results, &session->plan->system));
     TRY(store_write_results(session->store, results));
     TRY(write_report(session, results));
     return store_log(session->store, "finished after %.1f s", seconds);

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The parts of analysis_derive, one for each kind of series.
+#pragma once
+
+#include "results/results.h"
+#include "state/system.h"
+
+Status derive_diffusion(Results *results, const ResultSeries *displacement);
+Status derive_contact(Results *results, const ResultSeries *distribution);
+Status derive_theory(Results *results, const char *stage, const System *system);

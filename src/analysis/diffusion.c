@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Diffusion coefficients from mean squared displacements.
+//
+// Short time: the largest <r^2>/(2 dim t). Below a thermostat interval flight makes it grow with
+// t, beyond it collisions make it fall; in between it is D0 less what collisions within the
+// interval take, and tends to D0 with the interval.
+//
+// Long time: the slope of a straight line a + 2 dim D t, weighted by 1/t^2 (errors grow with t).
+// The window ends at the last lag. It begins at the earliest lag from which on the slope no longer
+// changes: the slopes of its two halves (in log t) agree within AGREEMENT standard errors of
+// their difference over replicas. Where there is no such lag, or one replica only, it is the last
+// LAST_STRETCH in time; the slope is then an upper bound on the diffusion coefficient.
+#include "analysis/derive.h"
+#include "base/memory.h"
+#include "numerics/fit.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double AGREEMENT = 2;
+static const double LAST_STRETCH = 4; // the window is t_last/4 to t_last
+enum { HALF_LEAST = 3 };              // lags in each half of a window
+
+// The curve of one species, along one direction or in total.
+typedef struct Curve {
+    const Results *results;
+    const ResultSeries *series;
+    const double *times;
+    size_t lags, row;  // values[replica][row * lags + lag]
+    double dimensions; // that it sums over
+    double *weights;   // [lags], 1/t^2
+} Curve;
+
+static const double *curve_of(const Curve *curve, size_t replica) {
+    return curve->series->values + replica * curve->series->size + curve->row * curve->lags;
+}
+
+static double curve_mean(const Curve *curve, size_t lag) {
+    return results_series_estimate(curve->results, curve->series, curve->row * curve->lags + lag)
+        .value;
+}
+
+// D of one replica from lags [begin, end).
+static double slope(const Curve *curve, size_t replica, size_t begin, size_t end) {
+    return fit_slope(curve->times + begin, curve_of(curve, replica) + begin, curve->weights + begin,
+                     end - begin) /
+           (2 * curve->dimensions);
+}
+
+// The lag that halves [begin, end) in log t.
+static size_t middle(const Curve *curve, size_t begin, size_t end) {
+    const double time = sqrt(curve->times[begin] * curve->times[end - 1]);
+    size_t lag = begin;
+    while (curve->times[lag] < time) lag++;
+    return lag;
+}
+
+static bool halves_agree(const Curve *curve, size_t begin, size_t end) {
+    const size_t half = middle(curve, begin, end);
+    if (half - begin < HALF_LEAST || end - half < HALF_LEAST) return false;
+    double sum = 0, squares = 0, count = 0;
+    for (size_t replica = 0; replica < curve->results->replicas; replica++) {
+        const double difference =
+            slope(curve, replica, begin, half + 1) - slope(curve, replica, half, end);
+        if (!isfinite(difference)) continue;
+        sum += difference;
+        squares += difference * difference;
+        count++;
+    }
+    if (count < 2) return false;
+    const double mean = sum / count;
+    const double error = sqrt(fmax(squares / count - mean * mean, 0) / (count - 1));
+    return fabs(mean) <= AGREEMENT * error;
+}
+
+static size_t window_begin(const Curve *curve) {
+    for (size_t begin = 0; begin + 2 * HALF_LEAST <= curve->lags; begin++) {
+        if (halves_agree(curve, begin, curve->lags)) return begin;
+    }
+    size_t begin = 0;
+    const double last = curve->times[curve->lags - 1];
+    while (begin + 2 < curve->lags && curve->times[begin] < last / LAST_STRETCH) begin++;
+    return begin;
+}
+
+static size_t fastest_lag(const Curve *curve) {
+    size_t best = 0;
+    for (size_t k = 1; k < curve->lags; k++) {
+        const double here = curve_mean(curve, k) / curve->times[k];
+        if (here > curve_mean(curve, best) / curve->times[best]) best = k;
+    }
+    return best;
+}
+
+static Status put(Results *results, const Curve *curve, const char *quantity, const char *species,
+                  const char *unit, const char *about, size_t replica, double value) {
+    char name[RESULT_NAME];
+    snprintf(name, sizeof name, "%s%s%s", quantity, species ? "_" : "", species ? species : "");
+    return results_put_scalar(results, curve->series->stage, name, unit, about, replica, value);
+}
+
+static Status put_short(Results *results, const Curve *curve, const char *species) {
+    const size_t lag = fastest_lag(curve);
+    const double time = curve->times[lag];
+    for (size_t replica = 0; replica < results->replicas; replica++) {
+        TRY(put(results, curve, "short_time_diffusion", species, "D0",
+                "Largest <r^2>/(2 dim t), reached about one thermostat interval; 1 for vanishing "
+                "interval.",
+                replica, curve_of(curve, replica)[lag] / (2 * curve->dimensions * time)));
+    }
+    return OK;
+}
+
+static Status put_long(Results *results, const Curve *curve, const char *species,
+                       const char *unit) {
+    const size_t begin = window_begin(curve);
+    for (size_t replica = 0; replica < results->replicas; replica++) {
+        TRY(put(results, curve, "long_time_diffusion", species, unit,
+                "Slope of <r^2>/(2 dim) against t, from long_time_window to the last lag.", replica,
+                slope(curve, replica, begin, curve->lags)));
+        TRY(put(results, curve, "long_time_window", species, curve->series->axis[2].unit,
+                "Where the slope stops changing: the halves of the window from here on agree "
+                "within two standard errors, or else it is the last three quarters of time.",
+                replica, curve->times[begin]));
+    }
+    return OK;
+}
+
+// One species; the last entry is all of them, and bears no name.
+static Status derive_species(Results *results, Curve *curve, const char *species) {
+    const bool brownian = strcmp(curve->series->axis[2].unit, "d^2/D0") == 0;
+    if (brownian) TRY(put_short(results, curve, species));
+    return put_long(results, curve, species, brownian ? "D0" : "d sqrt(kT/m)");
+}
+
+Status derive_diffusion(Results *results, const ResultSeries *series) {
+    const size_t species = series->axis[0].count, directions = series->axis[1].count;
+    const ResultAxis *time = &series->axis[2];
+    if (time->count < HALF_LEAST) return OK;
+    double *weights = NULL;
+    TRY(NEW_ARRAY(weights, time->count));
+    for (size_t k = 0; k < time->count; k++) weights[k] = 1 / (time->values[k] * time->values[k]);
+    Status status = OK;
+    for (size_t s = 0; status == OK && s < species; s++) {
+        Curve curve = {.results = results,
+                       .series = series,
+                       .times = time->values,
+                       .lags = time->count,
+                       .row = (s + 1) * directions - 1, // the last direction is the total
+                       .dimensions = (double)directions - 1,
+                       .weights = weights};
+        const char *name = s + 1 < species ? series->axis[0].labels[s] : NULL;
+        status = derive_species(results, &curve, name);
+    }
+    memory_free(weights);
+    return status;
+}

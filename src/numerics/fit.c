@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Least squares.
+#include "numerics/fit.h"
+
+#include <gsl/gsl_fit.h>
+#include <gsl/gsl_multifit.h>
+
+#include <math.h>
+
+double fit_slope(const double *x, const double *y, const double *weights, size_t count) {
+    double intercept, slope, cov00, cov01, cov11, chi2;
+    gsl_fit_wlinear(x, 1, weights, 1, y, 1, count, &intercept, &slope, &cov00, &cov01, &cov11,
+                    &chi2);
+    return slope;
+}
+
+typedef struct Fit {
+    gsl_matrix *basis;
+    gsl_vector *data, *coefficients;
+    gsl_matrix *covariance;
+    gsl_multifit_linear_workspace *work;
+} Fit;
+
+static Fit fit_new(size_t bins, size_t coefficients) {
+    return (Fit){.basis = gsl_matrix_alloc(bins, coefficients),
+                 .data = gsl_vector_alloc(bins),
+                 .coefficients = gsl_vector_alloc(coefficients),
+                 .covariance = gsl_matrix_alloc(coefficients, coefficients),
+                 .work = gsl_multifit_linear_alloc(bins, coefficients)};
+}
+
+static void fit_free(Fit *fit) {
+    gsl_matrix_free(fit->basis);
+    gsl_vector_free(fit->data);
+    gsl_vector_free(fit->coefficients);
+    gsl_matrix_free(fit->covariance);
+    gsl_multifit_linear_free(fit->work);
+}
+
+// Average of u^power over bin k of unit intervals cut into `bins`; u = 0 at the edge.
+static double power_average(size_t k, size_t bins, int power) {
+    const double low = (double)k / (double)bins, high = (double)(k + 1) / (double)bins;
+    return (pow(high, power + 1) - pow(low, power + 1)) / ((power + 1) * (high - low));
+}
+
+Status fit_value_at_edge(const double *y, size_t bins, int degree, double *value) {
+    const size_t coefficients = (size_t)degree + 1;
+    if (bins < coefficients) {
+        return status_fail(BAD_DATA, "%zu bins cannot fix the %zu coefficients of a polynomial",
+                           bins, coefficients);
+    }
+    Fit fit = fit_new(bins, coefficients);
+    for (size_t k = 0; k < bins; k++) {
+        gsl_vector_set(fit.data, k, y[k]);
+        for (int p = 0; p <= degree; p++) {
+            gsl_matrix_set(fit.basis, k, (size_t)p, power_average(k, bins, p));
+        }
+    }
+    double chi2;
+    gsl_multifit_linear(fit.basis, fit.data, fit.coefficients, fit.covariance, &chi2, fit.work);
+    *value = gsl_vector_get(fit.coefficients, 0);
+    fit_free(&fit);
+    return OK;
+}
