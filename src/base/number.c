@@ -81,19 +81,19 @@ bool number_read_whole(const char *text, int64_t *value) {
     return true;
 }
 
-// `value` with this many digits behind the first, as 123.4 where that is short, else as 1.234e20.
+// `value` with this many digits behind the first, as 123.4 or, where that is shorter, as 1e20.
 static void print_real(char out[NUMBER_SIZE], double value, int behind) {
-    static const int SMALLEST = -5, LARGEST = 15; // powers of ten written without an exponent
+    static const int SMALLEST = -5, LARGEST = 16; // powers of ten that may do without an exponent
+    static const int PLAIN = 6;                   // and those from 0 that always do
     char scientific[NUMBER_SIZE];
     snprintf(scientific, sizeof scientific, "%.*e", behind, value);
     char *e = strchr(scientific, 'e');
     const int exponent = atoi(e + 1);
-    if (exponent >= SMALLEST && exponent < LARGEST) {
-        snprintf(out, NUMBER_SIZE, "%.*f", behind > exponent ? behind - exponent : 0, value);
-        return;
-    }
     *e = '\0';
     snprintf(out, NUMBER_SIZE, "%.24se%d", scientific, exponent);
+    if (exponent < SMALLEST || exponent > LARGEST) return;
+    if (exponent >= PLAIN && strlen(out) < (size_t)exponent + 1) return;
+    snprintf(out, NUMBER_SIZE, "%.*f", behind > exponent ? behind - exponent : 0, value);
 }
 
 const char *number_write(char out[NUMBER_SIZE], double value) {

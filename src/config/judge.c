@@ -4,6 +4,7 @@
 #include "config/judge.h"
 
 #include "base/constants.h"
+#include "base/number.h"
 #include "packing/packing.h"
 
 #include <math.h>
@@ -84,6 +85,12 @@ static double densest_packing(const System *system) {
     return 1 - pow(1 - equal, (double)system->species_count);
 }
 
+static const char *what_packs(const System *system) {
+    if (system->dimension == 2)
+        return size_ratio(system) == 1 ? "equal discs" : "discs of these sizes";
+    return size_ratio(system) == 1 ? "equal spheres" : "spheres of these sizes";
+}
+
 static Status judge_density(const Node *map, const System *system) {
     const Node *fraction = tree_find(map, "packing_fraction");
     const Node *density = tree_find(map, "number_density");
@@ -96,10 +103,9 @@ static Status judge_density(const Node *map, const System *system) {
     if (!(value > 0)) return tree_fail(given, "%s = %g must be above 0", given->key, value);
     const double packing = system_packing_fraction(system), densest = densest_packing(system);
     if (packing > densest)
-        return tree_fail(given, "%s = %g%s exceeds %.4g, the densest packing of %s %ss", given->key,
-                         value, fraction ? "" : " fills more than space has:", densest,
-                         size_ratio(system) == 1 ? "equal" : "such",
-                         shape_names[system->species[0].shape]);
+        return tree_fail(given, "packing_fraction = %.4g%s exceeds %.4g, the densest packing of %s",
+                         packing, fraction ? "" : ", which this number_density gives,", densest,
+                         what_packs(system));
     return placed(given, packing_check(system));
 }
 
@@ -163,8 +169,10 @@ Status judge_memory(const Node *root, const Plan *plan) {
     const double there = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
     const double needed = (double)plan_memory(plan);
     if (there <= 0 || needed <= there) return OK;
+    char particles[NUMBER_SIZE];
     return tree_fail(
         place(root, "system", "particles"),
-        "particles = %g need %.3g GiB of memory per replica; this machine has %.3g GiB",
-        (double)plan->system.particles, needed / GIBIBYTE, there / GIBIBYTE);
+        "particles = %s needs %.3g GiB of memory per replica; this machine has %.3g GiB",
+        number_write(particles, (double)plan->system.particles), needed / GIBIBYTE,
+        there / GIBIBYTE);
 }

@@ -40,7 +40,10 @@ static void describe_range(const Option *row, Text *text) {
         text_add(text, " from %s to %s", number_write(least, row->least),
                  number_write(most, row->most));
     }
-    if (row->unit[0] != '\0' && row->type != OPTION_DURATION) text_add(text, " (%s)", row->unit);
+    if (row->type == OPTION_DURATION)
+        text_add(text, " s");
+    else if (row->unit[0] != '\0')
+        text_add(text, " (%s)", row->unit);
 }
 
 static void list_choices(const Option *row, Text *text) {
@@ -78,7 +81,6 @@ void option_describe(const Option *row, Text *text) {
     }
     if (row->choices) list_choices(row, text);
     describe_range(row, text);
-    if (row->type == OPTION_DURATION) text_add(text, " s");
 }
 
 // "particles = many is not a whole number from 2 to 100000000"
@@ -386,16 +388,23 @@ static Status fail_unknown(const OptionMap *options, const Node *node, const cha
     tree_quote(shown, node->key);
     const char *later = later_sentence(node->key);
     if (later) return tree_fail(node, "%s: %s", shown, later);
+    const char *dot = strchr(node->key, '.');
+    if (dot)
+        return tree_fail(node, "the key '%s' has a dot; write a map in a map, as %.*s: {...}",
+                         shown, (int)(dot - node->key < QUOTE_SIZE ? dot - node->key : QUOTE_SIZE),
+                         node->key);
     KnownKeys known = {.count = 0};
     known_collect(&known, options, prefix);
     const size_t nearest = nearest_word(node->key, known.pointers, known.count);
-    if (nearest < known.count)
-        return tree_fail(node, "unknown key '%s' in %s; did you mean '%s'?", shown, options->name,
-                         known.names[nearest]);
+    const bool near = nearest < known.count;
+    const bool slip = near && word_distance(node->key, known.names[nearest]) == 1;
     char home[SECTION_PATH_SIZE];
-    if (section_of_key(node->key, home))
+    if (!slip && section_of_key(node->key, home))
         return tree_fail(node, "unknown key '%s' in %s; it belongs in %s", shown, options->name,
                          home);
+    if (near)
+        return tree_fail(node, "unknown key '%s' in %s; did you mean '%s'?", shown, options->name,
+                         known.names[nearest]);
     Text names = {0};
     for (size_t i = 0; i < known.count; i++)
         text_add(&names, "%s%s", i ? ", " : "", known.names[i]);

@@ -28,7 +28,7 @@ static Status fail_unknown_name(const Node *node, const char *what, const char *
     Text list = {0};
     for (size_t i = 0; i < count; i++) text_add(&list, "%s%s", i ? ", " : "", names[i]);
     const Status status =
-        tree_fail(node, "unknown %s '%s'; there is %s", what, shown, text_words(&list));
+        tree_fail(node, "unknown %s '%s'; expected one of %s", what, shown, text_words(&list));
     text_free(&list);
     return status;
 }
@@ -115,6 +115,8 @@ static Status read_dynamics(const Node *map, const char *name, Dynamics *dynamic
     char word[OPTION_TEXT_SIZE] = "";
     const PropagatorKind *kind = dynamics->kind;
     const Node *method = tree_find(map, "method");
+    if (!kind && !method && map->kind == NODE_MAP)
+        return tree_fail(map, "dynamics needs 'method', such as event-driven");
     if (method) {
         TRY(option_read(option_named(&method_options, "method"), method, word));
         TRY(find_method(method, word, &kind));

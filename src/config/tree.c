@@ -250,8 +250,9 @@ static Status read_root(TreeReader *reader, Node **out) {
             event.type == YAML_STREAM_START_EVENT || event.type == YAML_DOCUMENT_START_EVENT;
         Status status = OK;
         if (event.type == YAML_STREAM_END_EVENT)
-            status = reader_fail(reader, (yaml_mark_t){0},
-                                 "the file is empty; a run file has system, dynamics, protocol");
+            status = reader_fail(
+                reader, (yaml_mark_t){0},
+                "there is nothing in this file; a run file has system, dynamics, protocol");
         if (!opening && status == OK) status = new_node(reader, event.start_mark, out);
         if (!opening && status == OK) status = read_value(reader, &event, 0, *out);
         yaml_event_delete(&event);

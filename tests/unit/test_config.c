@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Run files and plans: what is written reads back equal, what is left out gets its default, what
+// differs is told. Broken run files are in tests/cli/.
+#include "config/config.h"
+
+#include "base/memory.h"
+#include "base/number.h"
+
+#include <check.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char mixture[] = "title: \"A \\\"mixture\\\" of Größe \\\\ and #: signs\"\n"
+                              "system:\n"
+                              "  dimension: 2\n"
+                              "  particles: 1e3\n"
+                              "  packing_fraction: 0.7\n"
+                              "  box: {aspect: [2, 0.1]}\n"
+                              "  species:\n"
+                              "    small: {shape: disc, fraction: 0.1, mass: 3}\n"
+                              "    big:\n"
+                              "      shape: disc\n"
+                              "      diameter: 1.4\n"
+                              "      fraction: 0.9\n"
+                              "      spread: {distribution: gaussian, width: 0.05}\n"
+                              "dynamics: {method: event-driven, thermostat_interval: 0.003}\n"
+                              "protocol:\n"
+                              "  - {stage: settle, time: 5, dynamics: {method: newtonian}}\n"
+                              "  - stage: rest\n"
+                              "    time: 0.5\n"
+                              "    observe: [pressure, mean_squared_displacement: {origins: 7}]\n"
+                              "observe:\n"
+                              "  pressure: {blocks: 3}\n"
+                              "ensemble: {replicas: 8, seed: 9007199254740992}\n"
+                              "output: {trajectory: {every: 0.1}, checkpoint_every: 2 min}\n";
+
+static Plan *plan_of(const char *text, const ConfigOverrides *overrides) {
+    Plan *plan = NULL;
+    const Status status = config_read_text(&plan, "test", text, strlen(text), overrides);
+    ck_assert_msg(status == OK, "%s", status_sentence());
+    return plan;
+}
+
+static void assert_equal(const Plan *a, const Plan *b) {
+    char *difference = NULL;
+    ck_assert_int_eq(config_difference(a, b, &difference), OK);
+    ck_assert_str_eq(difference, "");
+    memory_free(difference);
+    ck_assert(memcmp(a, b, sizeof *a) == 0);
+}
+
+START_TEST(a_written_plan_reads_back_equal) {
+    Plan *plan = plan_of(mixture, NULL);
+    char *text = NULL;
+    ck_assert_int_eq(config_write(plan, &text), OK);
+    Plan *again = plan_of(text, NULL);
+    assert_equal(plan, again);
+    char *text_again = NULL;
+    ck_assert_int_eq(config_write(again, &text_again), OK);
+    ck_assert_str_eq(text, text_again);
+    memory_free(text);
+    memory_free(text_again);
+    memory_free(plan);
+    memory_free(again);
+}
+END_TEST
+
+START_TEST(values_arrive_where_they_belong) {
+    Plan *plan = plan_of(mixture, NULL);
+    ck_assert_str_eq(plan->title, "A \"mixture\" of Größe \\ and #: signs");
+    ck_assert_int_eq(plan->system.particles, 1000);
+    ck_assert(plan->system.packing_fraction == 0.7 && plan->system.number_density == 0);
+    ck_assert(plan->system.aspect.count == 2 && plan->system.aspect.values[1] == 0.1);
+    ck_assert_uint_eq(plan->system.species_count, 2);
+    ck_assert_str_eq(plan->system.species[0].name, "small");
+    ck_assert(plan->system.species[0].mass == 3 && plan->system.species[0].diameter == 1);
+    ck_assert_int_eq(plan->system.species[1].spread, SPREAD_GAUSSIAN);
+    ck_assert_str_eq(plan->stages[0].dynamics.kind->name, "newtonian");
+    ck_assert_str_eq(plan->stages[1].dynamics.kind->name, "event-driven");
+    ck_assert_uint_eq(plan->stages[0].observation_count, 0);
+    ck_assert_uint_eq(plan->stages[1].observation_count, 2);
+    ck_assert_str_eq(plan->stages[1].observations[0].kind->name, "pressure");
+    ck_assert_int_eq(plan->ensemble.seed, INT64_C(9007199254740992));
+    ck_assert(plan->output.trajectory_every == 0.1 && plan->output.checkpoint_every == 120);
+    memory_free(plan);
+}
+END_TEST
+
+// The value of a key in the table of a kind.
+static double setting(const OptionTable *table, const Settings *settings, const char *name) {
+    for (size_t i = 0; i < table->count; i++) {
+        const Option *row = &table->rows[i];
+        if (strcmp(row->name, name) != 0) continue;
+        if (row->type == OPTION_REAL) return *(const double *)(settings->bytes + row->offset);
+        return (double)*(const int64_t *)(settings->bytes + row->offset);
+    }
+    ck_abort_msg("no key %s", name);
+    return 0;
+}
+
+START_TEST(settings_of_an_observable_come_from_stage_then_file_then_table) {
+    Plan *plan = plan_of(mixture, NULL);
+    const Observation *pressure = &plan->stages[1].observations[0];
+    const Observation *displacement = &plan->stages[1].observations[1];
+    ck_assert(setting(&pressure->kind->options, &pressure->settings, "blocks") == 3);
+    ck_assert(setting(&displacement->kind->options, &displacement->settings, "origins") == 7);
+    memory_free(plan);
+    static const char *const in_stage[] = {"protocol.rest.observe=[pressure: {blocks: 5}]"};
+    const ConfigOverrides overrides = {1, in_stage};
+    plan = plan_of(mixture, &overrides);
+    pressure = &plan->stages[1].observations[0];
+    ck_assert(setting(&pressure->kind->options, &pressure->settings, "blocks") == 5);
+    memory_free(plan);
+}
+END_TEST
+
+START_TEST(a_stage_overrides_some_keys_of_the_dynamics) {
+    static const char *const longer[] = {"protocol.rest.dynamics.thermostat_interval=0.01"};
+    const ConfigOverrides overrides = {1, longer};
+    Plan *plan = plan_of(mixture, &overrides);
+    const Dynamics *all = &plan->dynamics, *rest = &plan->stages[1].dynamics;
+    ck_assert_ptr_eq(rest->kind, all->kind);
+    ck_assert(setting(&all->kind->options, &all->settings, "thermostat_interval") == 0.003);
+    ck_assert(setting(&rest->kind->options, &rest->settings, "thermostat_interval") == 0.01);
+    memory_free(plan);
+}
+END_TEST
+
+START_TEST(overrides_replace_and_add_values) {
+    static const char *const settings[] = {"system.particles=500", "ensemble={seed: 3}",
+                                           "system.species.big.diameter=1.3",
+                                           "protocol.settle.time=7", "title=another"};
+    const ConfigOverrides overrides = {5, settings};
+    Plan *plan = plan_of(mixture, &overrides);
+    ck_assert_int_eq(plan->system.particles, 500);
+    ck_assert_int_eq(plan->ensemble.seed, 3);
+    ck_assert(plan->system.species[1].diameter == 1.3);
+    ck_assert(plan->stages[0].time == 7);
+    ck_assert_str_eq(plan->title, "another");
+    memory_free(plan);
+}
+END_TEST
+
+START_TEST(a_difference_is_told_key_by_key) {
+    static const char *const settings[] = {"system.species.big.diameter=1.3",
+                                           "protocol.rest.time=0.25",
+                                           "protocol.rest.observe=[pressure]", "ensemble.seed=2"};
+    const ConfigOverrides overrides = {4, settings};
+    Plan *a = plan_of(mixture, NULL), *b = plan_of(mixture, &overrides);
+    char *text = NULL;
+    ck_assert_int_eq(config_difference(a, b, &text), OK);
+    ck_assert_ptr_nonnull(strstr(text, "system.species.big.diameter: was 1.4, now 1.3\n"));
+    ck_assert_ptr_nonnull(strstr(text, "protocol.rest.time: was 0.5, now 0.25\n"));
+    ck_assert_ptr_nonnull(strstr(text, "protocol.rest.observe: was {mean_squared_displacement"));
+    ck_assert_ptr_nonnull(strstr(text, "ensemble.seed: was 9007199254740992, now 2\n"));
+    ck_assert_ptr_null(strstr(text, "pressure"));
+    memory_free(text);
+    memory_free(a);
+    memory_free(b);
+}
+END_TEST
+
+START_TEST(every_double_reads_back_from_its_shortest_number) {
+    uint64_t bits = UINT64_C(0x9E3779B97F4A7C15); // any start: a walk through all exponents
+    for (int i = 0; i < 20000; i++) {
+        bits = bits * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+        double value, back = 0;
+        memcpy(&value, &bits, sizeof value);
+        if (!isfinite(value)) continue;
+        char text[NUMBER_SIZE];
+        number_write(text, value);
+        ck_assert_msg(number_read(text, &back), "%s", text);
+        ck_assert_msg(back == value, "%s is not %a", text, value);
+    }
+}
+END_TEST
+
+START_TEST(numbers_are_written_as_people_write_them) {
+    static const struct {
+        double value;
+        const char *text;
+    } cases[] = {{0, "0"},
+                 {1, "1"},
+                 {-0.5, "-0.5"},
+                 {0.1, "0.1"},
+                 {1000, "1000"},
+                 {1e6, "1e6"},
+                 {1234567, "1234567"},
+                 {1e-3, "0.001"},
+                 {1e-7, "1e-7"},
+                 {2e9, "2e9"},
+                 {1e22, "1e22"},
+                 {0.3, "0.3"},
+                 {1.0 / 3, "0.3333333333333333"},
+                 {5e-324, "5e-324"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[NUMBER_SIZE];
+        ck_assert_str_eq(number_write(text, cases[i].value), cases[i].text);
+    }
+}
+END_TEST
+
+START_TEST(only_decimal_numbers_are_numbers) {
+    static const char *const numbers[] = {"1",    "-1",   "+1", "0.5", ".5",   "5.",
+                                          "1e-3", "1E+3", "0",  "0e5", "00012"};
+    static const char *const others[] = {"",      "-",      ".",     "e5", "1e",  "1e+",   "0x10",
+                                         "nan",   "inf",    "1 ",    " 1", "1,5", "1_000", "1.2.3",
+                                         "1e400", "1e-400", "0x1p3", "1f", "--1"};
+    double value;
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        ck_assert_msg(number_read(numbers[i], &value), "%s", numbers[i]);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        ck_assert_msg(!number_read(others[i], &value), "%s", others[i]);
+}
+END_TEST
+
+START_TEST(whole_numbers_are_exact) {
+    int64_t value = 0;
+    ck_assert(number_read_whole("9223372036854775807", &value) && value == INT64_MAX);
+    ck_assert(number_read_whole("-9223372036854775808", &value) && value == INT64_MIN);
+    ck_assert(number_read_whole("1e6", &value) && value == 1000000);
+    ck_assert(number_read_whole("-0.2e1", &value) && value == -2);
+    ck_assert(!number_read_whole("9223372036854775808", &value));
+    ck_assert(!number_read_whole("1.5", &value));
+    ck_assert(!number_read_whole("1e17", &value));
+}
+END_TEST
+
+START_TEST(every_key_of_every_table_can_be_explained) {
+    FILE *nowhere = fopen("/dev/null", "w");
+    ck_assert_ptr_nonnull(nowhere);
+    ck_assert_int_eq(config_explain(NULL, nowhere), OK);
+    for (size_t k = 0; observable_kinds[k]; k++) {
+        ck_assert_int_eq(config_explain(observable_kinds[k]->name, nowhere), OK);
+        for (size_t i = 0; i < observable_kinds[k]->options.count; i++)
+            ck_assert_int_eq(config_explain(observable_kinds[k]->options.rows[i].name, nowhere),
+                             OK);
+    }
+    for (size_t k = 0; propagator_kinds[k]; k++)
+        ck_assert_int_eq(config_explain(propagator_kinds[k]->name, nowhere), OK);
+    for (size_t k = 0; k < SHAPES; k++)
+        ck_assert_int_eq(config_explain(shape_names[k], nowhere), OK);
+    ck_assert_int_eq(config_explain("gibberish", nowhere), BAD_USAGE);
+    fclose(nowhere);
+}
+END_TEST
+
+int main(void) {
+    Suite *suite = suite_create("config");
+    TCase *cases = tcase_create("run files");
+    tcase_add_test(cases, a_written_plan_reads_back_equal);
+    tcase_add_test(cases, values_arrive_where_they_belong);
+    tcase_add_test(cases, settings_of_an_observable_come_from_stage_then_file_then_table);
+    tcase_add_test(cases, a_stage_overrides_some_keys_of_the_dynamics);
+    tcase_add_test(cases, overrides_replace_and_add_values);
+    tcase_add_test(cases, a_difference_is_told_key_by_key);
+    tcase_add_test(cases, every_double_reads_back_from_its_shortest_number);
+    tcase_add_test(cases, numbers_are_written_as_people_write_them);
+    tcase_add_test(cases, only_decimal_numbers_are_numbers);
+    tcase_add_test(cases, whole_numbers_are_exact);
+    tcase_add_test(cases, every_key_of_every_table_can_be_explained);
+    suite_add_tcase(suite, cases);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+}
