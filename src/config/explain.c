@@ -189,7 +189,7 @@ Status config_explain(const char *word, FILE *out) {
         found = explain_in_section(&section, word, out) || found;
     }
     if (found) return OK;
-    const char *later = later_sentence(word);
+    const char *later = section_later(word);
     return later ? status_fail(BAD_USAGE, "%s: %s", word, later) : fail_unknown(word);
 }
 

@@ -144,7 +144,7 @@ static Status read_choice(const Option *row, const Node *node, int64_t *value) {
     for (; row->choices[count]; count++) {
         if (strcmp(node->text, row->choices[count]) == 0) return *value = (int64_t)count, OK;
     }
-    const char *later = later_sentence(node->text);
+    const char *later = section_later(node->text);
     if (later) return tree_fail(node, "%s = %s: %s", row->name, node->text, later);
     const size_t nearest = nearest_word(node->text, row->choices, count);
     if (nearest == count) return fail_kind(row, node);
@@ -386,7 +386,7 @@ static void known_collect(KnownKeys *known, const OptionMap *options, const char
 static Status fail_unknown(const OptionMap *options, const Node *node, const char *prefix) {
     char shown[QUOTE_SIZE];
     tree_quote(shown, node->key);
-    const char *later = later_sentence(node->key);
+    const char *later = section_later(node->key);
     if (later) return tree_fail(node, "%s: %s", shown, later);
     const char *dot = strchr(node->key, '.');
     if (dot)

@@ -20,7 +20,7 @@ static Status fail_unknown_name(const Node *node, const char *what, const char *
                                 const char *const *names, size_t count) {
     char shown[QUOTE_SIZE];
     tree_quote(shown, word);
-    const char *later = later_sentence(word);
+    const char *later = section_later(word);
     if (later) return tree_fail(node, "%s: %s", shown, later);
     const size_t nearest = nearest_word(word, names, count);
     if (nearest < count)
@@ -118,14 +118,14 @@ static Status read_dynamics(const Node *map, const char *name, Dynamics *dynamic
     if (!kind && !method && map->kind == NODE_MAP)
         return tree_fail(map, "dynamics needs 'method', such as event-driven");
     if (method) {
-        TRY(option_read(option_named(&method_options, "method"), method, word));
+        TRY(option_read(option_named(&section_method_options, "method"), method, word));
         TRY(find_method(method, word, &kind));
     }
     if (kind && kind != dynamics->kind) {
         *dynamics = (Dynamics){.kind = kind};
         TRY(options_default(&kind->options, &dynamics->settings));
     }
-    const OptionTarget targets[] = {{&method_options, word},
+    const OptionTarget targets[] = {{&section_method_options, word},
                                     {kind ? &kind->options : NULL, &dynamics->settings}};
     const OptionMap options = {name, targets, kind ? COUNT(targets) : 1, NULL};
     return options_read(&options, map, !dynamics->kind);
@@ -237,8 +237,8 @@ static Status read_optional(const Node *root, const char *name, const OptionTabl
 
 static Status read_plan(const Node *root, Plan *plan) {
     const Node *dynamics = NULL;
-    TRY(options_default(&title_options, plan));
-    TRY(read_section("the run file", &title_options, plan, root_sections, root, true));
+    TRY(options_default(&section_title_options, plan));
+    TRY(read_section("the run file", &section_title_options, plan, section_root_keys, root, true));
     TRY(read_system(root, &plan->system));
     TRY(find_required(root, "dynamics", "how time advances, as {method: event-driven}", &dynamics));
     TRY(read_dynamics(dynamics, "dynamics", &plan->dynamics));

@@ -11,26 +11,26 @@ static const Option title_rows[] = {
     {"title", OPTION_TEXT, offsetof(Plan, title), 0, 0, 0, "",
      "What this run is about, for its report."},
 };
-const OptionTable title_options = {title_rows, 1, sizeof(Plan)};
+const OptionTable section_title_options = {title_rows, 1, sizeof(Plan)};
 
 static const Option method_rows[] = {
     {"method", OPTION_TEXT, 0, 0, 0, 0, "", "How time advances: the name of a method.",
      .required = 1},
 };
-const OptionTable method_options = {method_rows, 1, OPTION_TEXT_SIZE};
+const OptionTable section_method_options = {method_rows, 1, OPTION_TEXT_SIZE};
 
-const char *const root_sections[] = {"system",   "dynamics", "protocol", "observe",
-                                     "ensemble", "output",   NULL};
+const char *const section_root_keys[] = {"system",   "dynamics", "protocol", "observe",
+                                         "ensemble", "output",   NULL};
 
 static const Section before_methods[] = {
-    {"", NULL, "A run file is one YAML map of sections.", &title_options},
+    {"", NULL, "A run file is one YAML map of sections.", &section_title_options},
     {"system", NULL, "The suspension: space, density, particles.", &system_options},
     {"system.species.NAME", NULL,
      "One kind of particles, under a name of your choice. The first species sets the unit of time "
      "by its free diffusion coefficient D0.",
      &species_options},
     {"dynamics", NULL, "How time advances in all stages that do not say otherwise.",
-     &method_options},
+     &section_method_options},
 };
 static const Section before_observables[] = {
     {"protocol", NULL, "The stages, in order: a list of maps.", &stage_options},
@@ -133,7 +133,7 @@ static const struct {
     {"coherent_scattering", "this version does not measure it; structure_factor is there"},
 };
 
-const char *later_sentence(const char *word) {
+const char *section_later(const char *word) {
     for (size_t i = 0; i < COUNT(later); i++) {
         if (strcmp(later[i].word, word) == 0) return later[i].sentence;
     }

@@ -24,8 +24,8 @@ bool section_of_key(const char *key, char home[SECTION_PATH_SIZE]);
 
 // What to say to a word of other engines, drives and theories that this version does not have;
 // NULL for a word that no version knows.
-const char *later_sentence(const char *word);
+const char *section_later(const char *word);
 
-extern const OptionTable title_options;   // `title`, of the Plan
-extern const OptionTable method_options;  // `method` of `dynamics`, a char[OPTION_TEXT_SIZE]
-extern const char *const root_sections[]; // NULL-ended: keys beside `title`
+extern const OptionTable section_title_options;  // `title`, of the Plan
+extern const OptionTable section_method_options; // `method` of `dynamics`, a char[OPTION_TEXT_SIZE]
+extern const char *const section_root_keys[];    // NULL-ended: keys beside `title`

@@ -97,7 +97,7 @@ static void write_stage(const Stage *stage, Text *text) {
 
 static void write_plan(const Plan *plan, Text *text) {
     text_add(text, "# A run file with every value written out; `perrin explain KEY` says more.\n");
-    write_table(&title_options, NULL, plan, 0, text);
+    write_table(&section_title_options, NULL, plan, 0, text);
     write_system(&plan->system, text);
     text_add(text, "\n");
     write_dynamics(&plan->dynamics, 0, text);
