@@ -4,7 +4,7 @@
 // replicas are derived, never stored twice in memory.
 #pragma once
 
-#include "base/status.h"
+#include "base/archive.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -93,3 +93,6 @@ typedef struct Estimate {
 Estimate results_series_estimate(const Results *results, const ResultSeries *series,
                                  size_t element);
 Estimate results_scalar_estimate(const Results *results, const ResultScalar *scalar);
+
+// Saves all of it, or loads it into what results_create(&results, 0) made.
+void results_archive(Results *results, Archive *archive);
