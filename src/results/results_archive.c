@@ -99,6 +99,7 @@ static void counter_archive(Archive *archive, ResultCounter *counter) {
     field_archive(archive, counter->name, sizeof counter->name);
     field_archive(archive, counter->about, sizeof counter->about);
     archive_f64(archive, &counter->value, 1);
+    archive_f64(archive, &counter->limit, 1);
 }
 
 // The length of one of the arrays, with zeroed room for it when loading.

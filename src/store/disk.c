@@ -24,7 +24,7 @@ static char *join(const char *folder, const char *middle, const char *name) {
 }
 
 char *disk_path(const Folder *folder, const char *name) {
-    return join(folder->path, "/", name);
+    return folder ? join(folder->path, "/", name) : join(name, "", "");
 }
 
 static char *temporary(const char *name) {

@@ -66,6 +66,7 @@ static hid_t memory_access(Image *image) {
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
     if (H5Pset_fapl_core(access, BUFFER_STEP, 0) >= 0 &&
         H5Pset_file_image_callbacks(access, &callbacks) >= 0 &&
+        H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 &&
         H5Pset_meta_block_size(access, METADATA_BLOCK) >= 0 &&
         H5Pset_small_data_block_size(access, 0) >= 0) {
         return access;

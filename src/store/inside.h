@@ -9,10 +9,9 @@
 
 struct Store {
     Folder folder;
-    int lock;               // descriptor of perrin.lock
-    uint64_t plan;          // names the plan: inside_hash of its text
-    pthread_mutex_t hdf5;   // HDF5 is used by one thread at a time
-    pthread_mutex_t writer; // of log.txt
+    int lock;             // descriptor of perrin.lock
+    uint64_t plan;        // names the plan: inside_hash of its text
+    pthread_mutex_t hdf5; // HDF5 is used by one thread at a time
 };
 
 // FNV-1a: tells plans apart, guards against mix-ups, not against malice.

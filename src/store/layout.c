@@ -5,6 +5,7 @@
 #include "store/layout.h"
 
 #include "base/crc32c.h"
+#include "base/version.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -22,7 +23,7 @@ static Status write_h5md(hid_t file) {
     TRY(image_text_attribute(author, "name", "unknown"));
     TRY(image_group(h5md, "creator", &creator));
     TRY(image_text_attribute(creator, "name", "perrin"));
-    TRY(image_text_attribute(creator, "version", PERRIN_VERSION));
+    TRY(image_text_attribute(creator, "version", version_number()));
     image_end(creator);
     image_end(author);
     image_end(h5md);

@@ -91,13 +91,14 @@ static Status read_field(hid_t object, const char *name, char *field, size_t siz
     return length < size ? OK : strange(name);
 }
 
-static Status read_integer(hid_t object, const char *name, int64_t *value) {
+// One number in an attribute, as `type` in memory.
+static Status read_number(hid_t object, const char *name, hid_t type, void *value) {
     const hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
     if (attribute < 0) return strange(name);
     const hid_t space = H5Aget_space(attribute);
     herr_t result = -1;
     if (H5Sget_simple_extent_npoints(space) == 1) {
-        result = H5Aread(attribute, H5T_NATIVE_INT64, value);
+        result = H5Aread(attribute, type, value);
     }
     H5Sclose(space);
     H5Aclose(attribute);
@@ -288,22 +289,27 @@ static Status read_stages(Results *results, hid_t stages) {
     return OK;
 }
 
+static Status read_counter(Results *results, hid_t health, const char *name) {
+    char about[RESULT_TEXT];
+    double value = 0, bound = 0;
+    const hid_t set = open_set(health, name);
+    if (set < 0) return strange(name);
+    Status status = read_field(set, "description", about, sizeof about);
+    if (status == OK) status = read_number(set, "limit", H5T_NATIVE_DOUBLE, &bound);
+    if (set_size(set) != 1 ||
+        H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) < 0) {
+        status = strange(name);
+    }
+    H5Dclose(set);
+    return status == OK ? results_put_health(results, name, about, bound, value) : status;
+}
+
 static Status read_health(Results *results, hid_t health) {
     const hsize_t count = link_count(health);
     for (hsize_t i = 0; i < count; i++) {
-        char name[RESULT_NAME], about[RESULT_TEXT];
+        char name[RESULT_NAME];
         if (!link_name(health, i, name)) return strange("health");
-        const hid_t set = open_set(health, name);
-        if (set < 0) return strange(name);
-        double value = 0;
-        Status status = read_field(set, "description", about, sizeof about);
-        if (set_size(set) != 1 ||
-            H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) < 0) {
-            status = strange(name);
-        }
-        H5Dclose(set);
-        TRY(status);
-        TRY(results_put_health(results, name, about, value));
+        TRY(read_counter(results, health, name));
     }
     return OK;
 }
@@ -344,7 +350,7 @@ static Status read_long_facts(Results *results, hid_t group) {
 
 static Status read_provenance(Results **results, hid_t group) {
     int64_t replicas;
-    TRY(read_integer(group, "replicas", &replicas));
+    TRY(read_number(group, "replicas", H5T_NATIVE_INT64, &replicas));
     if (replicas < 0) return strange("replicas");
     TRY(results_create(results, (size_t)replicas));
     TRY(read_short_facts(*results, group));

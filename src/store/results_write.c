@@ -137,20 +137,22 @@ static Status write_stages(hid_t file, const Results *results) {
     return status;
 }
 
+static Status write_counter(hid_t health, const ResultCounter *counter) {
+    const ImageShape number = {.type = H5T_IEEE_F64LE, .rank = 0};
+    hid_t set;
+    TRY(image_numbers(health, counter->name, &number, &counter->value, &set));
+    Status status = image_number_attribute(set, "limit", counter->limit);
+    if (status == OK) status = image_text_attribute(set, "description", counter->about);
+    image_end(set);
+    return status;
+}
+
 static Status write_health(hid_t provenance, const Results *results) {
-    static const ImageShape number = {.rank = 0};
     hid_t health;
     TRY(image_group(provenance, "health", &health));
     Status status = OK;
     for (size_t i = 0; status == OK && i < results->health_count; i++) {
-        const ResultCounter *counter = &results->health[i];
-        ImageShape shape = number;
-        shape.type = H5T_IEEE_F64LE;
-        hid_t set;
-        status = image_numbers(health, counter->name, &shape, &counter->value, &set);
-        if (status != OK) break;
-        status = image_text_attribute(set, "description", counter->about);
-        image_end(set);
+        status = write_counter(health, &results->health[i]);
     }
     image_end(health);
     return status;
