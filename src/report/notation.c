@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rounding of values and errors as people write them.
+#include "report/notation.h"
+
+#include "base/number.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int power_of_ten(double value) { // 12.3 -> 1
+    char scientific[32];
+    snprintf(scientific, sizeof scientific, "%.16e", value);
+    return atoi(strchr(scientific, 'e') + 1);
+}
+
+// The place (power of ten) of the last digit that an error allows. Of the error's three leading
+// digits, up to 354 leave two, up to 949 leave one, and the rest round up to 1000 and leave two.
+static int last_place(double error) {
+    char scientific[32];
+    snprintf(scientific, sizeof scientific, "%.2e", error);
+    const int place = atoi(strchr(scientific, 'e') + 1);
+    const int leading =
+        100 * (scientific[0] - '0') + 10 * (scientific[2] - '0') + (scientific[3] - '0');
+    if (leading <= 354) return place - 1;
+    return place;
+}
+
+static double rounded_to(double value, int place) {
+    const double unit = pow(10.0, place);
+    return round(value / unit) * unit;
+}
+
+static void value_and_error(Text *text, double value, double error, int place) {
+    if (place >= 0) {
+        text_add(text, "%.0f(%.0f)", rounded_to(value, place), rounded_to(error, place));
+        return;
+    }
+    const bool in_last_digits = error < 1.0 - 0.5 * pow(10.0, place);
+    text_add(text, "%.*f", -place, value);
+    if (in_last_digits)
+        text_add(text, "(%.0f)", error * pow(10.0, -place));
+    else
+        text_add(text, "(%.*f)", -place, error);
+}
+
+void notation_estimate(Text *text, Estimate estimate) {
+    static const double SMALL = 1e-4, LARGE = 1e6; // outside, with a power of ten
+    static const int DIGITS_OF_DOUBLE = 15;
+    const double value = estimate.value, error = estimate.error;
+    if (!isfinite(value)) {
+        text_put(text, "-");
+        return;
+    }
+    if (!isfinite(error) || error <= 0.0) {
+        text_add(text, error == 0.0 ? "%.10g" : "%.6g", value);
+        return;
+    }
+    const double size = fmax(fabs(value), error);
+    const int power = power_of_ten(size);
+    int place = last_place(error);
+    if (place < power - DIGITS_OF_DOUBLE) {
+        char digits[NUMBER_SIZE];
+        text_put(text, number_write(digits, value));
+    } else if (size < SMALL || size >= LARGE) {
+        const double scale = pow(10.0, power);
+        value_and_error(text, value / scale, error / scale, place - power);
+        text_add(text, "e%+03d", power);
+    } else {
+        value_and_error(text, value, error, place);
+    }
+}
+
+static const char *const RAISED[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+
+static const char *put_raised(Text *text, const char *digits) {
+    for (; *digits == '-' || (*digits >= '0' && *digits <= '9'); digits++) {
+        text_put(text, *digits == '-' ? "⁻" : RAISED[*digits - '0']);
+    }
+    return digits;
+}
+
+void notation_unit(Text *text, const char *unit) {
+    for (const char *c = unit; *c;) {
+        const bool raised = c[0] == '^' && (c[1] == '-' || (c[1] >= '0' && c[1] <= '9'));
+        if (raised) {
+            c = put_raised(text, c + 1);
+        } else if (strncmp(c, "sqrt", 4) == 0) {
+            text_put(text, "√");
+            c += 4;
+        } else if (strncmp(c, "D0", 2) == 0) {
+            text_put(text, "D₀");
+            c += 2;
+        } else {
+            text_bytes(text, c++, 1);
+        }
+    }
+}

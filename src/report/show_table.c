@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The results as columns for people: values with their errors in brackets, then the series by
+// name; a single series point by point.
+#include "report/show.h"
+
+#include "report/notation.h"
+
+#include <string.h>
+
+enum { COLUMN_MOST = RESULT_AXES + 2 };
+
+// Cells in rows of `columns`, each column as wide as its widest cell.
+typedef struct Table {
+    size_t columns, cells;
+    Text text;    // the cells, each ending in '\n'
+    size_t begin; // of the cell being written
+    size_t width[COLUMN_MOST];
+} Table;
+
+static void cell_ends(Table *table) {
+    const size_t column = table->cells++ % table->columns;
+    const size_t width = table->text.length - table->begin;
+    if (width > table->width[column]) table->width[column] = width;
+    text_put(&table->text, "\n");
+    table->begin = table->text.length;
+}
+
+static void cell(Table *table, const char *words) {
+    text_put(&table->text, words);
+    cell_ends(table);
+}
+
+// Adds the table to `text` and empties it.
+static void table_ends(Text *text, Table *table) {
+    static const int GAP = 2;
+    const char *words = text_words(&table->text);
+    for (size_t i = 0; i < table->cells; i++) {
+        const int length = (int)strcspn(words, "\n");
+        const bool last = (i + 1) % table->columns == 0;
+        const int width = last ? length : (int)table->width[i % table->columns] + GAP;
+        text_add(text, "%-*.*s", width, length, words);
+        if (last) text_put(text, "\n");
+        words += length + 1;
+    }
+    if (table->text.status != OK) text->status = table->text.status;
+    text_free(&table->text);
+}
+
+static void scalar_row(Table *table, const Results *results, const ResultScalar *scalar) {
+    const Estimate estimate = results_scalar_estimate(results, scalar);
+    text_add(&table->text, "%s/%s", scalar->stage, scalar->quantity);
+    cell_ends(table);
+    notation_estimate(&table->text, estimate);
+    cell_ends(table);
+    cell(table, scalar->unit);
+    text_add(&table->text, "%zu", estimate.n);
+    cell_ends(table);
+    cell(table, scalar->about);
+}
+
+static void table_of_scalars(Text *text, const Results *results, const Selection *selection) {
+    static const char *const HEADER[] = {"quantity", "value", "unit", "n", "about"};
+    Table table = {.columns = 5};
+    for (size_t i = 0; i < table.columns; i++) cell(&table, HEADER[i]);
+    size_t rows = 0;
+    for (size_t i = 0; i < results->scalar_count; i++) {
+        if (!selects_scalar(selection, &results->scalars[i])) continue;
+        scalar_row(&table, results, &results->scalars[i]);
+        rows++;
+    }
+    if (rows > 0)
+        table_ends(text, &table);
+    else
+        text_free(&table.text);
+}
+
+static void series_row(Table *table, const ResultSeries *series) {
+    text_add(&table->text, "%s/%s", series->stage, series->observable);
+    cell_ends(table);
+    for (size_t i = 0; i < series->axes; i++) {
+        const ResultAxis *axis = &series->axis[i];
+        text_add(&table->text, "%s%s (%zu)", i ? " x " : "", axis->name, axis->count);
+    }
+    cell_ends(table);
+    cell(table, series->unit);
+    cell(table, series->about);
+}
+
+static void table_of_names(Text *text, const Results *results) {
+    static const char *const HEADER[] = {"series", "axes", "unit", "about"};
+    Table table = {.columns = 4};
+    for (size_t i = 0; i < table.columns; i++) cell(&table, HEADER[i]);
+    for (size_t i = 0; i < results->series_count; i++) series_row(&table, &results->series[i]);
+    if (results->series_count > 0)
+        table_ends(text, &table);
+    else
+        text_free(&table.text);
+}
+
+static void name_with_unit(Table *table, const char *name, const char *unit) {
+    text_add(&table->text, unit[0] ? "%s [%s]" : "%s", name, unit);
+    cell_ends(table);
+}
+
+static void series_point(Table *table, const Results *results, const ResultSeries *series,
+                         size_t element) {
+    size_t index[RESULT_AXES];
+    series_indices(series, element, index);
+    for (size_t i = 0; i < series->axes; i++) {
+        const ResultAxis *axis = &series->axis[i];
+        if (axis->labels)
+            text_put(&table->text, axis->labels[index[i]]);
+        else
+            text_add(&table->text, "%.6g", axis->values[index[i]]);
+        cell_ends(table);
+    }
+    const Estimate estimate = results_series_estimate(results, series, element);
+    notation_estimate(&table->text, estimate);
+    cell_ends(table);
+    text_add(&table->text, "%zu", estimate.n);
+    cell_ends(table);
+}
+
+static void table_of_points(Text *text, const Results *results, const ResultSeries *series) {
+    text_add(text, "%s/%s: %s\n", series->stage, series->observable, series->about);
+    Table table = {.columns = series->axes + 2};
+    for (size_t i = 0; i < series->axes; i++) {
+        name_with_unit(&table, series->axis[i].name, series->axis[i].unit);
+    }
+    name_with_unit(&table, "value", series->unit);
+    cell(&table, "n");
+    for (size_t i = 0; i < series->size; i++) series_point(&table, results, series, i);
+    table_ends(text, &table);
+}
+
+void show_table(Text *text, const Results *results, const Selection *selection) {
+    table_of_scalars(text, results, selection);
+    if (selection->all) {
+        if (results->scalar_count && results->series_count) text_put(text, "\n");
+        table_of_names(text, results);
+        return;
+    }
+    for (size_t i = 0; i < results->series_count; i++) {
+        if (!selects_series(selection, &results->series[i])) continue;
+        table_of_points(text, results, &results->series[i]);
+    }
+}

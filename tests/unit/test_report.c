@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What people and machines read: notation of errors, names, JSON, CSV, and the page.
+#include "base/memory.h"
+#include "report/json.h"
+#include "report/notation.h"
+#include "report/report.h"
+#include "report/utf8.h"
+
+#include <check.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *written(double value, double error) {
+    static char words[64];
+    Text text = {0};
+    notation_estimate(&text, (Estimate){.value = value, .error = error, .n = 8});
+    snprintf(words, sizeof words, "%s", text_words(&text));
+    text_free(&text);
+    return words;
+}
+
+START_TEST(an_error_stands_in_units_of_the_last_digits) {
+    ck_assert_str_eq(written(5.1234, 0.0042), "5.123(4)");
+    ck_assert_str_eq(written(-5.1234, 0.0042), "-5.123(4)");
+    ck_assert_str_eq(written(5.1234, 0.0014), "5.1234(14)"); // up to 354 two digits
+    ck_assert_str_eq(written(5.1234, 0.0096), "5.123(10)");  // 960 rounds up to 1000
+    ck_assert_str_eq(written(0.5, 0.2), "0.50(20)");
+    ck_assert_str_eq(written(12.0, 3.0), "12.0(3.0)");
+    ck_assert_str_eq(written(3.21, 0.98), "3.2(1.0)");
+    ck_assert_str_eq(written(1234.0, 56.0), "1230(60)");
+    ck_assert_str_eq(written(0.001, 50.0), "0(50)");
+}
+END_TEST
+
+START_TEST(very_small_and_large_values_have_a_power_of_ten) {
+    ck_assert_str_eq(written(1.2345e-7, 2e-10), "1.2345(20)e-07");
+    ck_assert_str_eq(written(6.02214e23, 4.6e19), "6.0221(5)e+23");
+    ck_assert_str_eq(written(0.0, 3e-7), "0.0(3.0)e-07");
+}
+END_TEST
+
+START_TEST(without_an_error_no_digits_are_claimed) {
+    ck_assert_str_eq(written(3.14159265, NAN), "3.14159");
+    ck_assert_str_eq(written(1000, 0), "1000");
+    ck_assert_str_eq(written(NAN, 1), "-");
+    ck_assert_str_eq(written(INFINITY, NAN), "-");
+}
+END_TEST
+
+START_TEST(units_are_set_with_raised_and_lowered_digits) {
+    Text text = {0};
+    notation_unit(&text, "d^2/D0 d^-2 sqrt(kT/m)");
+    ck_assert_str_eq(text_words(&text), "d²/D₀ d⁻² √(kT/m)");
+    text_free(&text);
+}
+END_TEST
+
+START_TEST(json_escapes_what_would_break_it) {
+    Text text = {0};
+    json_string(&text, "a\"b\\c\n\x01 é \xff\xc3");
+    ck_assert_str_eq(text_words(&text), "\"a\\\"b\\\\c\\n\\u0001 é \\ufffd\\ufffd\"");
+    text_free(&text);
+    json_number(&text, NAN);
+    json_number(&text, -INFINITY);
+    ck_assert_str_eq(text_words(&text), "nullnull");
+    text_free(&text);
+    ck_assert_uint_eq(utf8_length("\xed\xa0\x80"), 0); // a surrogate
+    ck_assert_uint_eq(utf8_length("\xc0\xaf"), 0);     // overlong
+    ck_assert_uint_eq(utf8_length("\xf0\x9f\x98\x80"), 4);
+}
+END_TEST
+
+// Two replicas; a stage `quiescent` with scalars and a series of time and species.
+static Results *sample(void) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 2), OK);
+    results_put_fact(results, "title", "a \"title\", <b>");
+    results_put_health(results, "overlaps", "pairs", 0, 0);
+    const double times[] = {0.1, 1};
+    const char *const species[] = {"small", "big"};
+    const ResultSeries shape = {
+        .stage = "quiescent",
+        .observable = "mean_squared_displacement",
+        .unit = "d^2",
+        .about = "how far",
+        .axes = 2,
+        .axis = {{.name = "time", .unit = "d^2/D0", .count = 2, .values = times},
+                 {.name = "species", .unit = "", .count = 2, .labels = species}},
+    };
+    for (size_t r = 0; r < 2; r++) {
+        results_put_scalar(results, "quiescent", "pressure", "kT/d^2", "momentum, and area", r,
+                           9.0 + 0.5 * (double)r);
+        results_put_scalar(results, "settle", "pressure", "kT/d^2", "", r, 1.0);
+        results_put_scalar(results, "quiescent", "long_time_diffusion", "D0", "", r, NAN);
+        const double values[] = {0.4, 0.3, 2 + 0.5 * (double)r, NAN};
+        results_put_series(results, &shape, r, values);
+    }
+    return results;
+}
+
+static char *shown(ShowFormat format, const char *quantity) {
+    Results *results = sample();
+    Text text = {0};
+    ck_assert_int_eq(report_show(&text, results, format, quantity), OK);
+    results_free(results);
+    return text.bytes;
+}
+
+START_TEST(json_has_run_quantities_and_series) {
+    char *json = shown(SHOW_JSON, NULL);
+    ck_assert_ptr_nonnull(strstr(json, "\"title\": \"a \\\"title\\\", <b>\""));
+    ck_assert_ptr_nonnull(strstr(json,
+                                 "\"quiescent/pressure\": {\"value\": 9.25, \"error\": 0.25, "
+                                 "\"unit\": \"kT/d^2\", \"n\": 2, \"about\": "
+                                 "\"momentum, and area\"}"));
+    ck_assert_ptr_nonnull(strstr(json, "\"quiescent/long_time_diffusion\": {\"value\": null, "
+                                       "\"error\": null, \"unit\": \"D0\", \"n\": 0"));
+    ck_assert_ptr_nonnull(strstr(json, "\"axes\": [\"time\", \"species\"]"));
+    ck_assert_ptr_nonnull(strstr(json, "\"species\": [\"small\", \"big\"]"));
+    ck_assert_ptr_nonnull(strstr(json, "\"mean\": [[0.4, 0.3], [2.25, null]]"));
+    ck_assert_ptr_nonnull(strstr(json, "\"error\": [[0, 0], [0.25, null]]"));
+    free(json);
+}
+END_TEST
+
+START_TEST(json_of_one_quantity_holds_only_that) {
+    char *json = shown(SHOW_JSON, "long_time_diffusion");
+    ck_assert_ptr_nonnull(strstr(json, "quiescent/long_time_diffusion"));
+    ck_assert_ptr_null(strstr(json, "pressure"));
+    ck_assert_ptr_null(strstr(json, "mean_squared_displacement"));
+    free(json);
+}
+END_TEST
+
+START_TEST(csv_quotes_commas_and_leaves_gaps_for_no_number) {
+    char *csv = shown(SHOW_CSV, NULL);
+    ck_assert_str_eq(csv, "quantity,value,error,unit,n,about\n"
+                          "quiescent/pressure,9.25,0.25,kT/d^2,2,\"momentum, and area\"\n"
+                          "settle/pressure,1,0,kT/d^2,2,\n"
+                          "quiescent/long_time_diffusion,,,D0,0,\n");
+    free(csv);
+    csv = shown(SHOW_CSV, "mean_squared_displacement");
+    ck_assert_str_eq(csv, "time,species,value,error,unit,n\n"
+                          "0.1,small,0.4,0,d^2,2\n"
+                          "0.1,big,0.3,0,d^2,2\n"
+                          "1,small,2.25,0.25,d^2,2\n"
+                          "1,big,,,d^2,0\n");
+    free(csv);
+}
+END_TEST
+
+START_TEST(the_table_aligns_its_columns) {
+    char *table = shown(SHOW_TABLE, "quiescent/pressure");
+    ck_assert_str_eq(table, "quantity            value     unit    n  about\n"
+                            "quiescent/pressure  9.25(25)  kT/d^2  2  momentum, and area\n");
+    free(table);
+}
+END_TEST
+
+START_TEST(an_unknown_or_ambiguous_name_is_told_with_the_names_there_are) {
+    Results *results = sample();
+    Text text = {0};
+    ck_assert_int_eq(report_show(&text, results, SHOW_TABLE, "pressure"), BAD_USAGE);
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "quiescent/pressure or settle/pressure"));
+    ck_assert_int_eq(report_show(&text, results, SHOW_TABLE, "long_time_difusion"), BAD_USAGE);
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "mean quiescent/long_time_diffusion?"));
+    ck_assert_int_eq(report_show(&text, results, SHOW_TABLE, ""), BAD_USAGE);
+    ck_assert_uint_eq(text.length, 0);
+    results_free(results);
+}
+END_TEST
+
+int main(void) {
+    TCase *tests = tcase_create("report");
+    tcase_add_test(tests, an_error_stands_in_units_of_the_last_digits);
+    tcase_add_test(tests, very_small_and_large_values_have_a_power_of_ten);
+    tcase_add_test(tests, without_an_error_no_digits_are_claimed);
+    tcase_add_test(tests, units_are_set_with_raised_and_lowered_digits);
+    tcase_add_test(tests, json_escapes_what_would_break_it);
+    tcase_add_test(tests, json_has_run_quantities_and_series);
+    tcase_add_test(tests, json_of_one_quantity_holds_only_that);
+    tcase_add_test(tests, csv_quotes_commas_and_leaves_gaps_for_no_number);
+    tcase_add_test(tests, the_table_aligns_its_columns);
+    tcase_add_test(tests, an_unknown_or_ambiguous_name_is_told_with_the_names_there_are);
+    Suite *suite = suite_create("report");
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+}
