@@ -98,3 +98,7 @@ void notation_unit(Text *text, const char *unit) {
         }
     }
 }
+
+void notation_name(Text *text, const char *name) {
+    for (const char *c = name; *c; c++) text_bytes(text, *c == '_' ? " " : c, 1);
+}

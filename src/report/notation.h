@@ -12,3 +12,6 @@ void notation_estimate(Text *text, Estimate estimate);
 
 // A unit or symbol in typeset form: d^2/D0 becomes d²/D₀, sqrt(m/kT) becomes √(m/kT).
 void notation_unit(Text *text, const char *unit);
+
+// A name in words: long_time_diffusion becomes "long time diffusion".
+void notation_name(Text *text, const char *name);

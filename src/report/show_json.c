@@ -25,7 +25,7 @@ static void show_run(Text *text, const Results *results) {
         member(text, results->facts[i].name, results->facts[i].text);
         text_put(text, ",");
     }
-    text_add(text, "\n    \"replicas\": %zu,\n    \"health\": {", results->replicas);
+    text_put(text, "\n    \"health\": {");
     for (size_t i = 0; i < results->health_count; i++) {
         text_put(text, i ? ",\n      " : "\n      ");
         json_string(text, results->health[i].name);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What people and machines read: notation of errors, names, JSON, CSV, and the page.
-#include "base/memory.h"
+#include "report/figure.h"
+#include "report/files.h"
+#include "report/gnuplot.h"
 #include "report/json.h"
 #include "report/notation.h"
 #include "report/report.h"
@@ -11,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char *written(double value, double error) {
     static char words[64];
@@ -111,10 +114,9 @@ static char *shown(ShowFormat format, const char *quantity) {
 START_TEST(json_has_run_quantities_and_series) {
     char *json = shown(SHOW_JSON, NULL);
     ck_assert_ptr_nonnull(strstr(json, "\"title\": \"a \\\"title\\\", <b>\""));
-    ck_assert_ptr_nonnull(strstr(json,
-                                 "\"quiescent/pressure\": {\"value\": 9.25, \"error\": 0.25, "
-                                 "\"unit\": \"kT/d^2\", \"n\": 2, \"about\": "
-                                 "\"momentum, and area\"}"));
+    ck_assert_ptr_nonnull(strstr(json, "\"quiescent/pressure\": {\"value\": 9.25, \"error\": 0.25, "
+                                       "\"unit\": \"kT/d^2\", \"n\": 2, \"about\": "
+                                       "\"momentum, and area\"}"));
     ck_assert_ptr_nonnull(strstr(json, "\"quiescent/long_time_diffusion\": {\"value\": null, "
                                        "\"error\": null, \"unit\": \"D0\", \"n\": 0"));
     ck_assert_ptr_nonnull(strstr(json, "\"axes\": [\"time\", \"species\"]"));
@@ -172,6 +174,132 @@ START_TEST(an_unknown_or_ambiguous_name_is_told_with_the_names_there_are) {
 }
 END_TEST
 
+// A directory of its own, with a blank in its name, in which a report is written.
+typedef struct Place {
+    char directory[64];
+    char page[96];
+} Place;
+
+static Place new_place(void) {
+    Place place = {.directory = "/tmp/perrin report XXXXXX"};
+    ck_assert_ptr_nonnull(mkdtemp(place.directory));
+    snprintf(place.page, sizeof place.page, "%s/report.html", place.directory);
+    return place;
+}
+
+static void remove_place(const Place *place) {
+    const char *const files[] = {"report.html",
+                                 "figures/quiescent_mean_squared_displacement.csv",
+                                 "figures/quiescent_mean_squared_displacement.gp",
+                                 "figures/quiescent_mean_squared_displacement.svg",
+                                 "figures",
+                                 ""};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        char path[160];
+        snprintf(path, sizeof path, "%s/%s", place->directory, files[i]);
+        remove(path);
+    }
+    ck_assert_int_ne(access(place->directory, F_OK), 0);
+}
+
+static Text read_page(const Place *place) {
+    Text page = {0};
+    ck_assert_int_eq(file_read(&page, place->page), OK);
+    return page;
+}
+
+START_TEST(the_page_is_whole_in_itself_and_escapes_what_it_is_told) {
+    const Place place = new_place();
+    Results *results = sample();
+    ck_assert_msg(report_write(results, place.directory) == OK, "%s", status_sentence());
+    Text page = read_page(&place);
+    ck_assert_ptr_nonnull(strstr(page.bytes, "<h1>a &quot;title&quot;, &lt;b&gt;</h1>"));
+    ck_assert_ptr_nonnull(strstr(page.bytes, "<svg"));
+    ck_assert_ptr_nonnull(strstr(page.bytes, "9.25(25)"));
+    ck_assert_ptr_nonnull(strstr(page.bytes, "</html>"));
+    ck_assert_ptr_null(strstr(page.bytes, "<script"));
+    ck_assert_ptr_null(strstr(page.bytes, " src="));
+    ck_assert_ptr_null(strstr(page.bytes, "@import"));
+    text_free(&page);
+    results_free(results);
+    remove_place(&place);
+}
+END_TEST
+
+START_TEST(without_gnuplot_the_page_is_written_and_says_what_it_lacks) {
+    const Place place = new_place();
+    Results *results = sample();
+    setenv("PATH", "/nowhere", 1); // each test is a process of its own
+    ck_assert_int_eq(report_write(results, place.directory), IO_FAILED);
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "gnuplot does not start"));
+    Text page = read_page(&place);
+    ck_assert_ptr_nonnull(strstr(page.bytes, "No figure: gnuplot does not start"));
+    ck_assert_ptr_nonnull(strstr(page.bytes, "9.25(25)"));
+    ck_assert_ptr_nonnull(strstr(page.bytes, "</html>"));
+    text_free(&page);
+    results_free(results);
+    remove_place(&place);
+}
+END_TEST
+
+START_TEST(a_broken_limit_is_the_first_thing_a_reader_sees) {
+    const Place place = new_place();
+    Results *results = sample();
+    results_put_health(results, "overlaps", "pairs", 0, 3);
+    report_write(results, place.directory);
+    Text page = read_page(&place);
+    const char *verdict = strstr(page.bytes, "A health limit is broken: overlaps = 3 exceeds 0");
+    ck_assert_ptr_nonnull(verdict);
+    ck_assert(verdict < strstr(page.bytes, "<table>"));
+    text_free(&page);
+    results_free(results);
+    remove_place(&place);
+}
+END_TEST
+
+START_TEST(where_nothing_can_be_written_the_sentence_names_the_path) {
+    Results *results = sample();
+    ck_assert_int_eq(report_write(results, "/proc/nowhere"), IO_FAILED);
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "cannot write /proc/nowhere/report.html"));
+    results_free(results);
+}
+END_TEST
+
+START_TEST(an_observable_without_a_row_is_drawn_by_the_plain_rule) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    const double q[] = {1, 2}, t[] = {0.01, 0.1, 1};
+    const ResultSeries shape = {
+        .stage = "a stage",
+        .observable = "new_thing",
+        .unit = "d^2",
+        .about = "New.",
+        .axes = 2,
+        .axis = {{.name = "wave_number", .unit = "1/d", .count = 2, .values = q},
+                 {.name = "time", .unit = "d^2/D0", .count = 3, .values = t}}};
+    const double values[] = {1, 2, 3, 4, 5, NAN};
+    results_put_series(results, &shape, 0, values);
+    ck_assert(figure_exists(&results->series[0]));
+    const Figure figure = figure_of(results, &results->series[0]);
+    Text csv = {0};
+    figure_numbers(&csv, &figure);
+    ck_assert_str_eq(text_words(&csv), "time,\"wave number = 1 1/d\",\"wave number = 1 1/d error\","
+                                       "\"wave number = 2 1/d\",\"wave number = 2 1/d error\"\n"
+                                       "0.01,1,,4,\n0.1,2,,5,\n1,3,,,\n");
+    ck_assert_str_eq(figure.name, "a_stage_new_thing");
+    text_free(&csv);
+    results_free(results);
+}
+END_TEST
+
+START_TEST(gnuplot_takes_quoted_words_literally) {
+    Text script = {0};
+    gnuplot_quoted(&script, "it's `rm`\n$x");
+    ck_assert_str_eq(text_words(&script), "'it''s `rm` $x'");
+    text_free(&script);
+}
+END_TEST
+
 int main(void) {
     TCase *tests = tcase_create("report");
     tcase_add_test(tests, an_error_stands_in_units_of_the_last_digits);
@@ -184,6 +312,13 @@ int main(void) {
     tcase_add_test(tests, csv_quotes_commas_and_leaves_gaps_for_no_number);
     tcase_add_test(tests, the_table_aligns_its_columns);
     tcase_add_test(tests, an_unknown_or_ambiguous_name_is_told_with_the_names_there_are);
+    tcase_add_test(tests, the_page_is_whole_in_itself_and_escapes_what_it_is_told);
+    tcase_add_test(tests, without_gnuplot_the_page_is_written_and_says_what_it_lacks);
+    tcase_add_test(tests, a_broken_limit_is_the_first_thing_a_reader_sees);
+    tcase_add_test(tests, where_nothing_can_be_written_the_sentence_names_the_path);
+    tcase_add_test(tests, an_observable_without_a_row_is_drawn_by_the_plain_rule);
+    tcase_add_test(tests, gnuplot_takes_quoted_words_literally);
+    tcase_set_timeout(tests, 60); // gnuplot on a busy machine
     Suite *suite = suite_create("report");
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);

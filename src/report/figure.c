@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Chooses what of a series becomes curves, and writes their numbers and the script that draws them.
+#include "report/figure.h"
+
+#include "base/number.h"
+#include "report/gnuplot.h"
+#include "report/notation.h"
+#include "report/show.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// Becomes: {.observable = "mean_squared_displacement", ...}, ...
+static const FigureKind kinds[] = {
+#define FIGURE(...) {__VA_ARGS__},
+#include "report/figures.def"
+#undef FIGURE
+};
+
+const FigureKind *figure_kind_of(const ResultSeries *series) {
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        if (strcmp(kinds[i].observable, series->observable) == 0) return &kinds[i];
+    }
+    return NULL;
+}
+
+// Along time if there is one, else along the longest axis of numbers; NO_AXIS if there is none.
+enum { NO_AXIS = RESULT_AXES };
+
+static size_t axis_to_draw_along(const ResultSeries *series) {
+    size_t longest = NO_AXIS;
+    for (size_t i = 0; i < series->axes; i++) {
+        const ResultAxis *axis = &series->axis[i];
+        if (!axis->values || axis->count < 2) continue;
+        if (strcmp(axis->name, "time") == 0) return i;
+        if (longest == NO_AXIS || axis->count > series->axis[longest].count) longest = i;
+    }
+    return longest;
+}
+
+static bool stands_behind_another(const ResultSeries *series) {
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        if (kinds[i].line && strcmp(kinds[i].line, series->observable) == 0) return true;
+    }
+    return false;
+}
+
+bool figure_exists(const ResultSeries *series) {
+    return axis_to_draw_along(series) != NO_AXIS && !stands_behind_another(series);
+}
+
+static bool same_shape(const ResultSeries *a, const ResultSeries *b) {
+    if (a->axes != b->axes) return false;
+    for (size_t i = 0; i < a->axes; i++) {
+        if (a->axis[i].count != b->axis[i].count) return false;
+    }
+    return true;
+}
+
+// Letters, digits and '_' of the full name: all that gnuplot allows, and safe for a file.
+static void name_files(char name[FIGURE_NAME], const ResultSeries *series) {
+    snprintf(name, FIGURE_NAME, "%s_%s", series->stage, series->observable);
+    for (char *c = name; *c; c++) {
+        if (!isalnum((unsigned char)*c)) *c = '_';
+    }
+}
+
+static void put_coordinate(Text *title, const ResultAxis *axis, size_t index) {
+    if (title->length > 0) text_put(title, ", ");
+    if (axis->labels) {
+        text_put(title, axis->labels[index]);
+        return;
+    }
+    notation_name(title, axis->name);
+    text_add(title, " = %.4g ", axis->values[index]);
+    notation_unit(title, axis->unit);
+}
+
+// What tells this curve from the others: its place on all axes but x that have several.
+static void title_curve(Curve *curve, const Figure *figure, const size_t index[RESULT_AXES]) {
+    Text title = {0};
+    for (size_t i = 0; i < figure->series->axes; i++) {
+        const ResultAxis *axis = &figure->series->axis[i];
+        const bool chosen = figure->kind && figure->kind->only && axis->labels &&
+                            strcmp(axis->labels[index[i]], figure->kind->only) == 0;
+        if (axis == figure->x || axis->count < 2 || chosen) continue;
+        put_coordinate(&title, axis, index[i]);
+    }
+    snprintf(curve->title, sizeof curve->title, "%s", text_words(&title));
+    text_free(&title);
+}
+
+static bool axis_has(const ResultAxis *axis, const char *label) {
+    for (size_t i = 0; axis->labels && i < axis->count; i++) {
+        if (strcmp(axis->labels[i], label) == 0) return true;
+    }
+    return false;
+}
+
+// A curve begins at this element: first along x, and on the chosen label of an axis that has it.
+static bool begins_curve(const Figure *figure, const size_t index[RESULT_AXES]) {
+    for (size_t i = 0; i < figure->series->axes; i++) {
+        const ResultAxis *axis = &figure->series->axis[i];
+        if (axis == figure->x && index[i] != 0) return false;
+        if (!figure->kind || !figure->kind->only || !axis_has(axis, figure->kind->only)) continue;
+        if (strcmp(axis->labels[index[i]], figure->kind->only) != 0) return false;
+    }
+    return true;
+}
+
+static void choose_curves(Figure *figure) {
+    for (size_t element = 0; element < figure->series->size; element++) {
+        size_t index[RESULT_AXES];
+        series_indices(figure->series, element, index);
+        if (!begins_curve(figure, index)) continue;
+        if (figure->curve_count == FIGURE_CURVES) {
+            figure->left_out++;
+            continue;
+        }
+        Curve *curve = &figure->curve[figure->curve_count++];
+        curve->first = element;
+        title_curve(curve, figure, index);
+    }
+}
+
+Figure figure_of(const Results *results, const ResultSeries *series) {
+    const FigureKind *kind = figure_kind_of(series);
+    const size_t along = axis_to_draw_along(series);
+    ASSERT(along != NO_AXIS);
+    Figure figure = {.results = results, .series = series, .kind = kind, .stride = 1};
+    figure.x = &series->axis[along];
+    for (size_t i = along + 1; i < series->axes; i++) figure.stride *= series->axis[i].count;
+    if (kind && kind->line) figure.line = results_find_series(results, series->stage, kind->line);
+    if (figure.line && !same_shape(figure.line, series)) figure.line = NULL;
+    if (kind && kind->level) {
+        figure.level = results_find_scalar(results, series->stage, kind->level);
+    }
+    name_files(figure.name, series);
+    choose_curves(&figure);
+    return figure;
+}
+
+void figure_title(Text *text, const Figure *figure) {
+    const char *name = figure->series->observable;
+    if (figure->kind && figure->kind->title) {
+        text_put(text, figure->kind->title);
+        return;
+    }
+    const char first = (char)toupper((unsigned char)name[0]);
+    text_bytes(text, &first, 1);
+    notation_name(text, name + 1);
+}
+
+bool figure_is_dense(const Figure *figure) {
+    enum { MARKS_MOST = 60 };
+    return figure->x->count > MARKS_MOST;
+}
+
+void figure_caption(Text *text, const Figure *figure) {
+    const Results *results = figure->results;
+    const bool own = figure->kind && figure->kind->about;
+    text_put(text, own ? figure->kind->about : figure->series->about);
+    if (results->replicas > 1) {
+        text_add(text, " Mean over %zu replicas; %s: standard error of the mean.",
+                 results->replicas, figure_is_dense(figure) ? "bands" : "bars");
+    } else {
+        text_put(text, " One replica, hence no errors.");
+    }
+    if (figure->left_out > 0) {
+        text_add(text, " %zu further curves are in the numbers.", figure->left_out);
+    }
+}
+
+static void put_number(Text *csv, double value) { // empty where there is none
+    char digits[NUMBER_SIZE];
+    text_put(csv, ",");
+    if (isfinite(value)) text_put(csv, number_write(digits, value));
+}
+
+static void numbers_header(Text *csv, const Figure *figure) {
+    text_put(csv, figure->x->name);
+    for (size_t c = 0; c < figure->curve_count; c++) {
+        const char *title = figure->curve[c].title[0] ? figure->curve[c].title : "value";
+        text_add(csv, ",\"%s\",\"%s error\"", title, title);
+        if (figure->line) text_add(csv, ",\"%s %s\"", title, figure->kind->line_title);
+    }
+    text_put(csv, "\n");
+}
+
+void figure_numbers(Text *csv, const Figure *figure) {
+    numbers_header(csv, figure);
+    for (size_t i = 0; i < figure->x->count; i++) {
+        char digits[NUMBER_SIZE];
+        text_put(csv, number_write(digits, figure->x->values[i]));
+        for (size_t c = 0; c < figure->curve_count; c++) {
+            const size_t element = figure->curve[c].first + i * figure->stride;
+            const Results *results = figure->results;
+            const Estimate point = results_series_estimate(results, figure->series, element);
+            put_number(csv, point.value);
+            put_number(csv, point.error);
+            if (!figure->line) continue;
+            put_number(csv, results_series_estimate(results, figure->line, element).value);
+        }
+        text_put(csv, "\n");
+    }
+}

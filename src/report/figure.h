@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A series as a figure: its numbers (CSV), the gnuplot script that draws them, the picture (SVG)
+// and what to say about it.
+#pragma once
+
+#include "base/text.h"
+#include "results/results.h"
+
+#include <stdbool.h>
+
+// How an observable is drawn. Whatever has no row in figures.def is drawn by the plain rule.
+typedef struct FigureKind {
+    const char *observable;
+    const char *title;
+    const char *x, *y; // symbols
+    bool log_x, log_y;
+    const char *key;     // where gnuplot puts the legend
+    const char *only;    // of the labels of an axis that has it, the one to draw
+    const char *line;    // another series of the stage, of this shape: drawn as lines
+    const char *formula; // or a function of x, in gnuplot's notation
+    const char *line_title;
+    const char *ratio; // symbol of value/line, in a panel below
+    const char *level; // a scalar of the stage, drawn as a horizontal line
+    const char *level_title;
+    const char *about; // what is to be seen, a sentence for the caption
+} FigureKind;
+
+const FigureKind *figure_kind_of(const ResultSeries *series); // NULL for the plain rule
+
+// It has an axis of numbers to draw along, and is not drawn behind another.
+bool figure_exists(const ResultSeries *series);
+
+enum { FIGURE_CURVES = 8, FIGURE_NAME = 2 * RESULT_NAME };
+
+typedef struct Curve {
+    size_t first; // element at the beginning of the x axis
+    char title[3 * RESULT_NAME];
+} Curve;
+
+typedef struct Figure {
+    const Results *results;
+    const ResultSeries *series;
+    const ResultSeries *line;  // NULL without
+    const ResultScalar *level; // NULL without
+    const FigureKind *kind;    // NULL for the plain rule
+    char name[FIGURE_NAME];    // of the files, without ending
+    const ResultAxis *x;
+    size_t stride;      // elements from one point to the next along x
+    size_t curve_count; // drawn
+    size_t left_out;    // further curves, not drawn
+    Curve curve[FIGURE_CURVES];
+} Figure;
+
+bool figure_is_dense(const Figure *figure); // too many points for a mark on each
+
+Figure figure_of(const Results *results, const ResultSeries *series);
+
+void figure_title(Text *text, const Figure *figure);
+void figure_caption(Text *text, const Figure *figure);
+void figure_numbers(Text *csv, const Figure *figure);
+void figure_script(Text *script, const Figure *figure);
+
+// Writes FOLDER/NAME.csv and .gp, lets gnuplot draw NAME.svg, and adds that to `page`.
+Status figure_draw(Text *page, const Figure *figure, const char *folder);

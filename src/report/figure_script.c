@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The gnuplot script of a figure: plain enough to be edited by hand for a paper.
+#include "report/figure.h"
+
+#include "report/gnuplot.h"
+#include "report/notation.h"
+#include "report/palette.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const int MARKS[PALETTE_SIZE] = {7, 5, 9, 11, 13, 6, 4, 8}; // gnuplot's point types
+
+#define REFERENCE "dashtype (6,4) linewidth 1.6 linecolor rgb '#333333'"
+
+// Columns of the numbers: x, then for each curve its value, its error and, if any, its line.
+static size_t value_column(const Figure *figure, size_t curve) {
+    return 2 + curve * (figure->line ? 3 : 2);
+}
+
+static void put_label(Text *script, const char *axis, const char *symbol, const char *unit) {
+    Text label = {0};
+    text_put(&label, symbol);
+    if (unit[0]) {
+        text_put(&label, "  [");
+        notation_unit(&label, unit);
+        text_put(&label, "]");
+    }
+    text_add(script, "set %slabel ", axis);
+    gnuplot_quoted(script, text_words(&label));
+    text_put(script, " noenhanced\n");
+    text_free(&label);
+}
+
+static void put_x_label(Text *script, const Figure *figure) {
+    Text name = {0};
+    if (figure->kind && figure->kind->x)
+        text_put(&name, figure->kind->x);
+    else
+        notation_name(&name, figure->x->name);
+    put_label(script, "x", text_words(&name), figure->x->unit);
+    text_free(&name);
+}
+
+static void put_y_label(Text *script, const Figure *figure) {
+    Text name = {0};
+    if (figure->kind && figure->kind->y)
+        text_put(&name, figure->kind->y);
+    else
+        notation_name(&name, figure->series->observable);
+    put_label(script, "y", text_words(&name), figure->series->unit);
+    text_free(&name);
+}
+
+static bool has_ratio(const Figure *figure) {
+    return figure->line && figure->kind->ratio;
+}
+
+static void put_head(Text *script, const Figure *figure) {
+    text_add(
+        script,
+        "# Draws %s.svg from %s.csv: gnuplot %s.gp\n"
+        "set encoding utf8\n"
+        "set terminal svg size 760,%d enhanced font 'Helvetica,Arial,sans-serif,16' name '%s'\n"
+        "set output '%s.svg'\n"
+        "set datafile separator ','\n"
+        "data = '%s.csv'\n"
+        "set border linewidth 1.2\n"
+        "set tics scale 0.8\n"
+        "set style fill transparent solid 0.25 noborder\n",
+        figure->name, figure->name, figure->name, has_ratio(figure) ? 680 : 460, figure->name,
+        figure->name, figure->name);
+    for (size_t i = 0; i < PALETTE_SIZE; i++) {
+        text_add(script,
+                 "set linetype %zu linecolor rgb '%s' linewidth 1.6 pointtype %d "
+                 "pointsize 0.6\n",
+                 i + 1, PALETTE[i], MARKS[i]);
+    }
+    const char *key = figure->kind && figure->kind->key ? figure->kind->key : "right top";
+    text_add(script, "set key %s noenhanced samplen 2 spacing 1.2\n", key);
+}
+
+// Without a row of its own, an axis is logarithmic if its points spread out along it.
+static bool is_log_x(const Figure *figure) {
+    static const double SPREADS = 10; // last gap over first gap
+    if (figure->kind) return figure->kind->log_x;
+    const double *x = figure->x->values;
+    const size_t last = figure->x->count - 1;
+    return x[0] > 0 && x[last] - x[last - 1] > SPREADS * (x[1] - x[0]);
+}
+
+static void put_axes(Text *script, const Figure *figure) {
+    if (is_log_x(figure)) {
+        text_put(script, "set logscale x\nset format x '10^{%T}'\n");
+    }
+    if (figure->kind && figure->kind->log_y) {
+        text_put(script, "set logscale y\nset format y '10^{%T}'\n");
+    }
+    put_x_label(script, figure);
+    put_y_label(script, figure);
+}
+
+// Black for what is summed over species, a colour of its own for every other curve.
+static size_t look_of(const Figure *figure, size_t curve) {
+    static const size_t BLACK = 7;
+    const char *title = figure->curve[curve].title;
+    return strcmp(title, "all") == 0 || strcmp(title, "total") == 0 ? BLACK : curve + 1;
+}
+
+// Where there are too many points for marks with bars, the bars become a band.
+static void put_curve(Text *script, const Figure *figure, size_t curve, const char *value,
+                      const char *error, const char *title) {
+    const bool has_errors = figure->results->replicas > 1, dense = figure_is_dense(figure);
+    const size_t look = look_of(figure, curve);
+    if (curve > 0) text_put(script, ", \\\n");
+    if (has_errors && dense) {
+        text_add(script,
+                 "  data using 1:(%s - (%s)):(%s + (%s)) with filledcurves linetype %zu notitle, "
+                 "\\\n",
+                 value, error, value, error, look);
+    }
+    text_add(script, "  data using 1:(%s)", value);
+    if (has_errors && !dense)
+        text_add(script, ":(%s) with yerrorlines", error);
+    else
+        text_add(script, " with %s", dense ? "lines" : "linespoints");
+    text_add(script, " linetype %zu title ", look);
+    gnuplot_quoted(script, title);
+}
+
+// A single curve needs no name unless something else is drawn beside it.
+static const char *title_of(const Figure *figure, size_t curve) {
+    const bool alone = !figure->line && !figure->level && !(figure->kind && figure->kind->formula);
+    const char *title = figure->curve[curve].title;
+    return title[0] || alone ? title : "simulation";
+}
+
+// A point of which the error is unknown is drawn without a bar: valid(column) asks.
+static void put_curves(Text *script, const Figure *figure) {
+    for (size_t c = 0; c < figure->curve_count; c++) {
+        char value[32], error[64];
+        const size_t column = value_column(figure, c);
+        snprintf(value, sizeof value, "$%zu", column);
+        snprintf(error, sizeof error, "valid(%zu) ? $%zu : 0", column + 1, column + 1);
+        put_curve(script, figure, c, value, error, title_of(figure, c));
+    }
+}
+
+static void put_ratios(Text *script, const Figure *figure) {
+    for (size_t c = 0; c < figure->curve_count; c++) {
+        char value[32], error[64];
+        const size_t column = value_column(figure, c);
+        snprintf(value, sizeof value, "$%zu/$%zu", column, column + 2);
+        snprintf(error, sizeof error, "valid(%zu) ? $%zu/$%zu : 0", column + 1, column + 1,
+                 column + 2);
+        put_curve(script, figure, c, value, error, "");
+    }
+    text_put(script, ", \\\n  1 with lines " REFERENCE " notitle\n");
+}
+
+static void put_reference_title(Text *script, const char *title, bool first) {
+    text_put(script, first ? " title " : " notitle");
+    if (first) gnuplot_quoted(script, title);
+}
+
+// What the curves are compared with: other numbers, a function, or a level.
+static void put_references(Text *script, const Figure *figure) {
+    const FigureKind *kind = figure->kind;
+    for (size_t c = 0; figure->line && c < figure->curve_count; c++) {
+        text_add(script, ", \\\n  data using 1:%zu with lines " REFERENCE,
+                 value_column(figure, c) + 2);
+        put_reference_title(script, kind->line_title, c == 0);
+    }
+    if (kind && kind->formula) {
+        text_add(script, ", \\\n  %s with lines " REFERENCE, kind->formula);
+        put_reference_title(script, kind->line_title, true);
+    }
+    if (figure->level) {
+        const Estimate level = results_scalar_estimate(figure->results, figure->level);
+        text_add(script, ", \\\n  %.10g with lines " REFERENCE, level.value);
+        put_reference_title(script, kind->level_title, true);
+    }
+    text_put(script, "\n");
+}
+
+// Two panels over one x axis; the places are fractions of the picture's height.
+static void put_panels(Text *script, const Figure *figure) {
+    text_put(script, "set multiplot\n"
+                     "set lmargin at screen 0.13\nset rmargin at screen 0.97\n"
+                     "set tmargin at screen 0.97\nset bmargin at screen 0.42\n"
+                     "unset xlabel\nset format x ''\n"
+                     "plot \\\n");
+    put_curves(script, figure);
+    put_references(script, figure);
+    text_put(script, "set tmargin at screen 0.39\nset bmargin at screen 0.10\n"
+                     "set format x '10^{%T}'\nunset logscale y\nset format y '%g'\n");
+    put_x_label(script, figure);
+    put_label(script, "y", figure->kind->ratio, "");
+    text_put(script, "set yrange [0:*]\nset offsets 0, 0, graph 0.1, 0\n"
+                     "plot \\\n");
+    put_ratios(script, figure);
+    text_put(script, "unset multiplot\n");
+}
+
+void figure_script(Text *script, const Figure *figure) {
+    put_head(script, figure);
+    put_axes(script, figure);
+    if (has_ratio(figure)) {
+        put_panels(script, figure);
+        return;
+    }
+    text_put(script, "plot \\\n");
+    put_curves(script, figure);
+    put_references(script, figure);
+}
