@@ -5,16 +5,18 @@
 #include <stddef.h>
 #include <stdint.h>
 
+// Of one step. Each block of Threefry2x32 has a key of two words; the third word is the half of
+// its counter that is not the particle's id.
 typedef struct NormalsKey {
-    uint32_t plane[2]; // key of the generator for components 0 and 1
-    uint32_t third[2]; // and for component 2
-    uint32_t step;     // lower half of the step number; the upper half is in the keys
+    uint32_t plane[3]; // for components 0 and 1
+    uint32_t third[3]; // for component 2
 } NormalsKey;
 
 typedef void NormalsFill(const NormalsKey *key, const uint32_t *ids, size_t count, int components,
                          double *const normals[3]);
 NormalsFill normals_fill_portable, normals_fill_avx2, normals_fill_avx512;
 
-// One normal number from two words, by the same formulas, and the words of (id, step).
+// For the cold path and the tests, one lane of the portable build.
 double normals_one(uint32_t radius_word, uint32_t angle_word);
-void normals_words(const uint32_t key[2], uint32_t id, uint32_t step, uint32_t words[2]);
+void normals_pair(uint32_t radius_word, uint32_t angle_word, double pair[2]);
+void normals_words(const uint32_t key[2], uint32_t words[2]); // Threefry2x32-13 of `words`

@@ -9,13 +9,22 @@ void normals_fill_portable(const NormalsKey *key, const uint32_t *ids, size_t co
 }
 
 double normals_one(uint32_t radius_word, uint32_t angle_word) {
-    Reals first, second;
-    normal_pair((Words){radius_word}, (Words){angle_word}, &first, &second);
-    return (double)first[0];
+    const Words angle = {angle_word};
+    const Reals normal = radius((Words){radius_word}, angle) * sine_of_half_circle(angle);
+    return (double)normal[0];
 }
 
-void normals_words(const uint32_t key[2], uint32_t id, uint32_t step, uint32_t words[2]) {
-    Words x = {id}, y = {step};
+void normals_pair(uint32_t radius_word, uint32_t angle_word, double pair[2]) {
+    const Words angle = {angle_word};
+    Reals cosine, sine;
+    direction(angle, &cosine, &sine);
+    const Reals r = radius((Words){radius_word}, angle);
+    pair[0] = (double)(r * cosine)[0];
+    pair[1] = (double)(r * sine)[0];
+}
+
+void normals_words(const uint32_t key[2], uint32_t words[2]) {
+    Words x = {words[0]}, y = {words[1]};
     threefry(key, &x, &y);
     words[0] = x[0];
     words[1] = y[0];

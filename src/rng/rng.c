@@ -12,6 +12,13 @@
 
 static const uint64_t NO_PARTICLE = UINT64_MAX; // the counter of a key for the hot path
 
+static uint32_t lower(uint64_t word) {
+    return (uint32_t)word;
+}
+static uint32_t upper(uint64_t word) {
+    return (uint32_t)(word >> 32);
+}
+
 static void philox(RngKey key, const uint64_t counter[4], uint64_t block[4]) {
     const philox4x64_ctr_t in = {{counter[0], counter[1], counter[2], counter[3]}};
     const philox4x64_key_t words = {{key.seed, key.replica}};
@@ -47,15 +54,14 @@ uint64_t rng_below(Rng *rng, uint64_t bound) {
 
 double rng_normal(Rng *rng) {
     const uint64_t bits = rng_bits(rng);
-    return normals_one((uint32_t)(bits >> 32), (uint32_t)bits);
+    return normals_one(upper(bits), lower(bits));
 }
 
 static NormalsKey normals_key(RngKey key, RngStream stream, uint64_t step) {
     uint64_t block[4];
-    philox(key, (const uint64_t[4]){0, NO_PARTICLE, step >> 32, stream}, block);
-    return (NormalsKey){.plane = {(uint32_t)block[0], (uint32_t)(block[0] >> 32)},
-                        .third = {(uint32_t)block[1], (uint32_t)(block[1] >> 32)},
-                        .step = (uint32_t)step};
+    philox(key, (const uint64_t[4]){0, NO_PARTICLE, step, stream}, block);
+    return (NormalsKey){.plane = {lower(block[0]), upper(block[0]), lower(block[2])},
+                        .third = {lower(block[1]), upper(block[1]), upper(block[2])}};
 }
 
 void rng_normals_with(CpuPath path, RngKey key, RngStream stream, uint64_t step,

@@ -37,8 +37,9 @@ double rng_normal(Rng *rng);                  // mean 0, variance 1
 
 // For the hot path: `components` (2 or 3) independent standard normal numbers for each of `count`
 // particles at one step; component a of particle ids[i] goes to normals[a][i], a pure function of
-// (key, stream, step, ids[i], a). `count` may be any number. Vectorised Threefry2x32-20, keyed by
-// Philox, with polynomials of our own, dispatched by cpu_path. Single precision, tails to 8.1.
+// (key, stream, step, ids[i], a). `count` may be any number. Vectorised Threefry2x32, keyed at each
+// step by Philox, with polynomials of our own, dispatched by cpu_path. Single precision, tails to
+// 8.6.
 void rng_normals(RngKey key, RngStream stream, uint64_t step, const uint32_t *ids, size_t count,
                  int components, double *const normals[3]);
 
