@@ -5,25 +5,30 @@
 #include "state/system.h"
 
 // Equal discs at packing fraction eta.
-double henderson(double eta); // Henderson, Mol. Phys. 30, 971 (1975)
-double
-baus_colot(double eta); // Baus & Colot, Phys. Rev. A 36, 3912 (1987); Weysser, thesis, eq. 2.6
-double discs_resummed(
-    double eta); // Pade [4/5] of B2..B10 of Clisby & McCoy, J. Stat. Phys. 122, 15 (2006)
+// Henderson, Mol. Phys. 30, 971 (1975).
+double equation_henderson(double eta);
+// Baus & Colot, Phys. Rev. A 36, 3912 (1987); Weysser, thesis, eq. 2.6.
+double equation_baus_colot(double eta);
+// Pade approximant [4/5] of the virial coefficients B2 to B10 of Clisby & McCoy, J. Stat. Phys.
+// 122, 15 (2006).
+double equation_discs_resummed(double eta);
 
 // Equal spheres.
-double carnahan_starling(double eta); // J. Chem. Phys. 51, 635 (1969)
-double kolafa(double eta);            // Kolafa's correction of it: Boublik & Nezbeda 1986, eq. 4.46
+// Carnahan & Starling, J. Chem. Phys. 51, 635 (1969).
+double equation_carnahan_starling(double eta);
+// Kolafa's correction of it, in Boublik & Nezbeda, Coll. Czech. Chem. Commun. 51, 2301 (1986).
+double equation_kolafa(double eta);
 
 // Mixtures and polydisperse systems; `moment[p]` is the mean of diameter^p over particles.
-double disc_mixture(double eta, const double moment[4],
-                    double pure);                           // from Z of equal discs:
-                                                            // Santos, Yuste & Lopez de Haro 1999
-double jenkins_mancini(double eta, const double moment[4]); // J. Appl. Mech. 54, 27 (1987)
-double sphere_mixture(double eta, const double moment[4]);  // Boublik 1970; Mansoori et al. 1971
+// Discs, from the Z of equal discs: Santos, Yuste & Lopez de Haro, Mol. Phys. 96, 1 (1999).
+double equation_disc_mixture(double eta, const double moment[4], double pure);
+// Jenkins & Mancini, J. Appl. Mech. 54, 27 (1987): the same with Henderson's Z.
+double equation_jenkins_mancini(double eta, const double moment[4]);
+// Spheres: Boublik, J. Chem. Phys. 53, 471 (1970); Mansoori et al., J. Chem. Phys. 54, 1523 (1971).
+double equation_sphere_mixture(double eta, const double moment[4]);
 
 // 1 + B2 rho of the mixture: the dilute limit.
-double second_virial(const System *system);
+double equation_second_virial(const System *system);
 
 // The best of these for a system, and which it is.
 typedef struct EquationOfState {

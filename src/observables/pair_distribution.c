@@ -96,8 +96,10 @@ static Status check(const Settings *settings_, const System *system, const Clock
     return OK;
 }
 
+// Whole bins only: a pair beyond the length is not looked for.
 static size_t bins_for(double length, double spacing) {
-    return (size_t)ceil(length / spacing - 1e-9);
+    const double bins = floor(length / spacing + 1e-9);
+    return bins < 1 ? 1 : (size_t)bins;
 }
 
 // A pair of the widest particles has to be found as far out as the contact histogram goes.

@@ -78,7 +78,7 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
     for (int a = 0; a < state->box.dimension; a++) {
         pressure->virial[block] += tally->exchange[a][a];
     }
-    pressure->temperature += observer->clock.thermostatted ? 1 : relative_temperature(state);
+    pressure->temperature += observer->clock.thermostatted ? 1 : temperature_relative(state);
     return OK;
 }
 

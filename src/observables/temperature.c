@@ -14,7 +14,7 @@ static double relative_motion(const State *state, int axis) {
     return square - momentum * momentum / mass;
 }
 
-double relative_temperature(const State *state) {
+double temperature_relative(const State *state) {
     double sum = 0;
     for (int a = 0; a < state->box.dimension; a++) sum += relative_motion(state, a);
     const double freedoms = (double)state->box.dimension * ((double)state->count - 1);

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Helpers of the tests that measure: settings filled with defaults, states made by hand, results
+// read by name.
+#pragma once
+
+#include "observables/observables.h"
+
+#include <check.h>
+#include <math.h>
+#include <string.h>
+
+// A real or integer of a settings struct, by the name of its option.
+static inline void set_number(Settings *settings, const OptionTable *options, const char *name,
+                              double value) {
+    for (size_t i = 0; i < options->count; i++) {
+        const Option *row = &options->rows[i];
+        if (strcmp(row->name, name) != 0) continue;
+        if (row->type == OPTION_REAL)
+            *(double *)(settings->bytes + row->offset) = value;
+        else
+            *(int64_t *)(settings->bytes + row->offset) = (int64_t)value;
+        return;
+    }
+    ck_abort_msg("no option '%s'", name);
+}
+
+static inline Settings settings_of(const OptionTable *options) {
+    Settings settings = {{0}};
+    for (size_t i = 0; i < options->count; i++) {
+        set_number(&settings, options, options->rows[i].name, options->rows[i].fallback);
+    }
+    return settings;
+}
+
+// `species` discs or spheres of diameters 1, 1.4, ... in equal numbers.
+static inline System system_of(int dimension, int64_t particles, double packing_fraction,
+                               size_t species) {
+    static const char *const names[] = {"small", "big", "bigger"};
+    System system = {.dimension = dimension,
+                     .particles = particles,
+                     .packing_fraction = packing_fraction,
+                     .species_count = species};
+    for (size_t s = 0; s < species; s++) {
+        system.species[s] = (Species){.shape = dimension == 2 ? SHAPE_DISC : SHAPE_SPHERE,
+                                      .diameter = 1 + 0.4 * (double)s,
+                                      .mass = 1,
+                                      .fraction = 1 / (double)species};
+        strcpy(system.species[s].name, names[s]);
+    }
+    return system;
+}
+
+static inline State *new_state(const System *system) {
+    State *state = NULL;
+    ck_assert_int_eq(state_create(&state, system), OK);
+    for (size_t i = 0; i < state->count; i++) {
+        state->diameter[i] = system->species[state->species_of[i]].diameter;
+    }
+    return state;
+}
+
+// Uniformly random places: an ideal gas.
+static inline void scatter(State *state, RngKey key, uint64_t step) {
+    Rng rng = rng_open(key, STREAM_PACKING, step, 0);
+    for (int a = 0; a < state->box.dimension; a++) {
+        for (size_t i = 0; i < state->count; i++) {
+            state->position[a][i] = rng_uniform(&rng) * state->box.edge[a];
+        }
+    }
+}
+
+static inline Observer *new_observer(const ObservableKind *kind, const Settings *settings,
+                                     const State *state, const Clock *clock) {
+    Observer *observer = NULL;
+    ck_assert_int_eq(kind->create(&observer, settings, state, clock), OK);
+    return observer;
+}
+
+static inline Results *written(const Observer *observer, const State *state) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(observer->kind->write(observer, state, results, 0), OK);
+    return results;
+}
+
+static inline double scalar_of(const Results *results, const char *stage, const char *quantity) {
+    const ResultScalar *scalar = results_find_scalar(results, stage, quantity);
+    ck_assert_msg(scalar != NULL, "no scalar '%s/%s'", stage, quantity);
+    return results_scalar_estimate(results, scalar).value;
+}
+
+static inline double error_of(const Results *results, const char *stage, const char *quantity) {
+    const ResultScalar *scalar = results_find_scalar(results, stage, quantity);
+    ck_assert_msg(scalar != NULL, "no scalar '%s/%s'", stage, quantity);
+    return results_scalar_estimate(results, scalar).error;
+}
+
+static inline const ResultSeries *series_of(const Results *results, const char *stage,
+                                            const char *observable) {
+    const ResultSeries *series = results_find_series(results, stage, observable);
+    ck_assert_msg(series != NULL, "no series '%s/%s'", stage, observable);
+    return series;
+}
