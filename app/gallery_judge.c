@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Holds what a gallery entry measured against what is expected of it. An expectation is met if
+//   |value - expected| <= tolerance + 3 sqrt(error^2 + uncertainty^2):
+// `tolerance` is what finite size, finite interval or the reference formula may amount to, said in
+// the entry; the errors are statistical. A value whose error exceeds the `precision` that is asked
+// for proves nothing, and is said to be coarse.
+#include "gallery.h"
+
+#include "measure.h"
+
+#include "base/memory.h"
+#include "store/store.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double STANDARD_ERRORS = 3; // beyond which a deviation counts
+
+typedef struct Measured {
+    const char *point, *curve, *measure;
+    double x;
+    Estimate estimate;
+} Measured;
+
+typedef struct Judgement {
+    const GalleryRun *run;
+    Csv *points, *measures, *expected;
+    Measured *measured; // [points->rows * measures->rows], unset where a point lacks one
+    size_t count;
+} Judgement;
+
+static Status open_table(FILE **out, const GalleryRun *run, const char *name) {
+    char path[GALLERY_PATH];
+    TRY(gallery_path(path, run->directory, name));
+    *out = fopen(path, "w");
+    return *out ? OK : status_fail_errno(IO_FAILED, "cannot write %s", path);
+}
+
+static Status close_table(FILE *table, const GalleryRun *run, const char *name) {
+    const bool failed = ferror(table) != 0;
+    if (fclose(table) == 0 && !failed) return OK;
+    return status_fail_errno(IO_FAILED, "cannot write %s/%s", run->directory, name);
+}
+
+static Status keep_curve(const Judgement *judgement, const Results *results, const char *point,
+                         size_t measure) {
+    char name[GALLERY_PATH];
+    FILE *table = NULL;
+    snprintf(name, sizeof name, "%s-%s.csv", point,
+             csv_cell(judgement->measures, measure, "measure"));
+    TRY(open_table(&table, judgement->run, name));
+    const Status status =
+        measure_curve(results, csv_cell(judgement->measures, measure, "quantity"), table);
+    const Status closed = close_table(table, judgement->run, name);
+    return status == OK ? closed : status;
+}
+
+// A measure that names a curve is taken at the points of that curve only.
+static bool wants(const Csv *measures, size_t measure, const char *curve) {
+    const char *only = csv_cell(measures, measure, "curve");
+    return *only == '\0' || strcmp(only, curve) == 0;
+}
+
+static Status measure_point(Judgement *judgement, const Results *results, size_t row) {
+    const Csv *measures = judgement->measures;
+    Measured at = {.point = csv_cell(judgement->points, row, "point"),
+                   .curve = csv_cell(judgement->points, row, "curve")};
+    TRY(csv_number(judgement->points, row, "x", 0, &at.x));
+    for (size_t m = 0; m < measures->rows; m++) {
+        const char *quantity = csv_cell(measures, m, "quantity");
+        if (!wants(measures, m, at.curve)) continue;
+        at.measure = csv_cell(measures, m, "measure");
+        if (measure_is_curve(quantity)) {
+            TRY(keep_curve(judgement, results, at.point, m));
+            continue;
+        }
+        TRY(measure_number(results, quantity, &at.estimate));
+        judgement->measured[judgement->count++] = at;
+    }
+    return OK;
+}
+
+static Status measure_points(Judgement *judgement) {
+    TRY(NEW_ARRAY(judgement->measured, judgement->points->rows * judgement->measures->rows));
+    for (size_t row = 0; row < judgement->points->rows; row++) {
+        char directory[GALLERY_PATH], path[GALLERY_PATH];
+        Results *results = NULL;
+        TRY(gallery_path(directory, judgement->run->directory,
+                         csv_cell(judgement->points, row, "point")));
+        TRY(gallery_path(path, directory, "results.h5"));
+        TRY(store_read_results(&results, path));
+        const Status status = measure_point(judgement, results, row);
+        results_free(results);
+        TRY(status);
+    }
+    return OK;
+}
+
+static Status write_measured(const Judgement *judgement) {
+    FILE *table = NULL;
+    TRY(open_table(&table, judgement->run, "measured.csv"));
+    fputs("point,curve,x,measure,value,error,replicas\n", table);
+    for (size_t i = 0; i < judgement->count; i++) {
+        const Measured *at = &judgement->measured[i];
+        fprintf(table, "%s,%s,%.10g,%s,%.10g,%.10g,%zu\n", at->point, at->curve, at->x, at->measure,
+                at->estimate.value, at->estimate.error, at->estimate.n);
+    }
+    return close_table(table, judgement->run, "measured.csv");
+}
+
+// Least squares of a straight line through the points of a curve, weighted by their errors: where
+// it meets x = 0.
+static Status extrapolate(const Judgement *judgement, const char *curve, const char *measure,
+                          Measured *out) {
+    double weights = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (size_t i = 0; i < judgement->count; i++) {
+        const Measured *at = &judgement->measured[i];
+        if (strcmp(at->curve, curve) != 0 || strcmp(at->measure, measure) != 0) continue;
+        const double weight = 1 / (at->estimate.error * at->estimate.error);
+        weights += weight;
+        x += weight * at->x;
+        y += weight * at->estimate.value;
+        xx += weight * at->x * at->x;
+        xy += weight * at->x * at->estimate.value;
+    }
+    const double determinant = weights * xx - x * x;
+    if (!(determinant > 0)) {
+        return status_fail(BAD_DATA, "%s of %s cannot be extrapolated: two points are needed",
+                           measure, curve);
+    }
+    *out = (Measured){.point = curve, .curve = curve, .measure = measure};
+    out->estimate.value = (xx * y - x * xy) / determinant;
+    out->estimate.error = sqrt(xx / determinant);
+    return OK;
+}
+
+// The value of a point; of a curve where it meets x = 0, as "CURVE@0".
+static Status find_measured(const Judgement *judgement, const char *subject, const char *measure,
+                            Measured *out) {
+    const size_t length = strlen(subject);
+    if (length > 2 && strcmp(subject + length - 2, "@0") == 0) {
+        for (size_t row = 0; row < judgement->points->rows; row++) {
+            const char *curve = csv_cell(judgement->points, row, "curve");
+            if (strlen(curve) != length - 2 || strncmp(curve, subject, length - 2) != 0) continue;
+            return extrapolate(judgement, curve, measure, out);
+        }
+    }
+    for (size_t i = 0; i < judgement->count; i++) {
+        *out = judgement->measured[i];
+        if (strcmp(out->point, subject) == 0 && strcmp(out->measure, measure) == 0) return OK;
+    }
+    return status_fail(BAD_DATA, "%s: no point has the measure '%s' of '%s'",
+                       judgement->expected->path, measure, subject);
+}
+
+typedef struct Expectation {
+    const char *subject, *measure;
+    double expected, uncertainty, tolerance, precision;
+} Expectation;
+
+static Status read_expectation(const Csv *csv, size_t row, Expectation *out) {
+    *out = (Expectation){.subject = csv_cell(csv, row, "subject"),
+                         .measure = csv_cell(csv, row, "measure")};
+    TRY(csv_number(csv, row, "expected", (double)NAN, &out->expected));
+    TRY(csv_number(csv, row, "uncertainty", 0, &out->uncertainty));
+    TRY(csv_number(csv, row, "tolerance", 0, &out->tolerance));
+    return csv_number(csv, row, "precision", (double)INFINITY, &out->precision);
+}
+
+static const char *verdict_of(const Expectation *want, double value, double error) {
+    const double far = fabs(value - want->expected);
+    const double chance = STANDARD_ERRORS * hypot(error, want->uncertainty);
+    if (!(far <= want->tolerance + chance)) return "MISSED";
+    return error > want->precision ? "coarse" : "met";
+}
+
+static Status judge_row(const Judgement *judgement, size_t row, FILE *table, FILE *out,
+                        size_t *missed) {
+    const Csv *csv = judgement->expected;
+    Expectation want;
+    Measured at = {.point = ""};
+    TRY(read_expectation(csv, row, &want));
+    TRY(find_measured(judgement, want.subject, want.measure, &at));
+    const double value = at.estimate.value;
+    const double error = isnan(at.estimate.error) ? 0 : at.estimate.error; // a single replica
+    const double deviation = (value - want.expected) / hypot(error, want.uncertainty);
+    const char *verdict = verdict_of(&want, value, error), *kind = csv_cell(csv, row, "kind");
+    *missed += strcmp(verdict, "met") != 0;
+    fprintf(table, "%s,%s,%.10g,%s,%.10g,%.10g,%.10g,%.10g,%.10g,%.3g,%s,%s,\"%s\"\n", want.subject,
+            at.curve, at.x, want.measure, value, error, want.expected, want.uncertainty,
+            want.tolerance, deviation, verdict, kind, csv_cell(csv, row, "source"));
+    fprintf(out, "%-20s %-24s %11.6g %8.2g %11.6g %8.2g %9.2g %6.1f  %-6s  %s\n", want.subject,
+            want.measure, value, error, want.expected, want.uncertainty, want.tolerance, deviation,
+            verdict, kind);
+    return OK;
+}
+
+static Status judge_rows(const Judgement *judgement, FILE *out, size_t *missed) {
+    FILE *table = NULL;
+    TRY(open_table(&table, judgement->run, "verdict.csv"));
+    fputs("subject,curve,x,measure,value,error,expected,uncertainty,tolerance,deviation,verdict,"
+          "kind,source\n",
+          table);
+    fprintf(out, "%-20s %-24s %11s %8s %11s %8s %9s %6s  %-6s  %s\n", "subject", "measure", "value",
+            "error", "expected", "uncert.", "tolerance", "dev/se", "", "kind");
+    Status status = OK;
+    for (size_t row = 0; row < judgement->expected->rows && status == OK; row++) {
+        status = judge_row(judgement, row, table, out, missed);
+    }
+    const Status closed = close_table(table, judgement->run, "verdict.csv");
+    return status == OK ? closed : status;
+}
+
+static Status read_table(Csv **out, const GalleryRun *run, const char *name) {
+    char path[GALLERY_PATH];
+    TRY(gallery_path(path, run->entry, name));
+    return csv_read(out, path);
+}
+
+static Status judge(Judgement *judgement, FILE *out, size_t *missed) {
+    TRY(read_table(&judgement->points, judgement->run, "points.csv"));
+    TRY(read_table(&judgement->measures, judgement->run, "measures.csv"));
+    TRY(read_table(&judgement->expected, judgement->run, "expected.csv"));
+    TRY(measure_points(judgement));
+    TRY(write_measured(judgement));
+    return judge_rows(judgement, out, missed);
+}
+
+Status gallery_judge(const GalleryRun *run, FILE *out, size_t *missed, size_t *count) {
+    Judgement judgement = {.run = run};
+    *missed = *count = 0;
+    const Status status = judge(&judgement, out, missed);
+    if (judgement.expected) *count = judgement.expected->rows;
+    memory_free(judgement.measured);
+    csv_free(judgement.points);
+    csv_free(judgement.measures);
+    csv_free(judgement.expected);
+    return status;
+}
