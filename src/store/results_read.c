@@ -322,7 +322,7 @@ static Status put_fact(Results *results, hid_t group, const char *name, bool set
     return status;
 }
 
-// The short facts: attributes in the order in which they were made, after the two numbers.
+// The short facts: attributes in the order in which they were made.
 static Status read_short_facts(Results *results, hid_t group) {
     H5O_info_t info;
     if (H5Oget_info2(group, &info, H5O_INFO_NUM_ATTRS) < 0) return strange("perrin");
@@ -331,7 +331,6 @@ static Status read_short_facts(Results *results, hid_t group) {
         const ssize_t length = H5Aget_name_by_idx(group, ".", H5_INDEX_CRT_ORDER, H5_ITER_INC, i,
                                                   name, sizeof name, H5P_DEFAULT);
         if (length <= 0 || length >= RESULT_NAME) return strange("perrin");
-        if (strcmp(name, "format_version") == 0 || strcmp(name, "replicas") == 0) continue;
         TRY(put_fact(results, group, name, false));
     }
     return OK;
@@ -348,24 +347,24 @@ static Status read_long_facts(Results *results, hid_t group) {
     return OK;
 }
 
-static Status read_provenance(Results **results, hid_t group) {
-    int64_t replicas;
-    TRY(read_number(group, "replicas", H5T_NATIVE_INT64, &replicas));
-    if (replicas < 0) return strange("replicas");
-    TRY(results_create(results, (size_t)replicas));
-    TRY(read_short_facts(*results, group));
-    TRY(read_long_facts(*results, group));
+static Status read_provenance(Results *results, hid_t group) {
+    TRY(read_short_facts(results, group));
+    TRY(read_long_facts(results, group));
     hid_t health;
     TRY(open_group(group, "health", &health));
-    const Status status = read_health(*results, health);
+    const Status status = read_health(results, health);
     H5Gclose(health);
     return status;
 }
 
 static Status read_contents(Results **results, hid_t file) {
+    int64_t replicas;
+    TRY(read_number(file, "replicas", H5T_NATIVE_INT64, &replicas));
+    if (replicas < 0) return strange("replicas");
+    TRY(results_create(results, (size_t)replicas));
     hid_t group;
     TRY(open_group(file, "perrin", &group));
-    Status status = read_provenance(results, group);
+    Status status = read_provenance(*results, group);
     H5Gclose(group);
     TRY(status);
     TRY(open_group(file, "stages", &group));

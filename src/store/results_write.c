@@ -159,9 +159,6 @@ static Status write_health(hid_t provenance, const Results *results) {
 }
 
 static Status write_provenance(hid_t group, const Results *results) {
-    const int64_t version = SEAL_VERSION, replicas = (int64_t)results->replicas;
-    TRY(image_integers_attribute(group, "format_version", &version, 1));
-    TRY(image_integers_attribute(group, "replicas", &replicas, 1));
     for (size_t i = 0; i < results->fact_count; i++) {
         const ResultFact *fact = &results->facts[i];
         if (strlen(fact->text) > ATTRIBUTE_MOST || strcmp(fact->name, "plan") == 0) {
@@ -174,7 +171,10 @@ static Status write_provenance(hid_t group, const Results *results) {
 }
 
 static Status write_contents(hid_t file, const Results *results) {
+    const int64_t version = SEAL_VERSION, replicas = (int64_t)results->replicas;
     hid_t group;
+    TRY(image_integers_attribute(file, "format_version", &version, 1));
+    TRY(image_integers_attribute(file, "replicas", &replicas, 1));
     TRY(write_stages(file, results));
     TRY(image_group(file, "perrin", &group));
     const Status status = write_provenance(group, results);

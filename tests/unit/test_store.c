@@ -292,6 +292,7 @@ static Results *some_results(void) {
     results_put_scalar(results, "alone", "a", "", "", 1, -1);
     results_put_fact(results, "version", "0.1.0");
     results_put_fact(results, "title", "");
+    results_put_fact(results, "replicas", "2");
     char *plan = malloc(100001);
     memset(plan, 'x', 100000);
     plan[100000] = '\0';
