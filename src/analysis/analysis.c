@@ -10,11 +10,16 @@
 
 Status derive_theory(Results *results, const char *stage, const System *system) {
     const EquationOfState theory = equation_of_state(system);
-    char about[RESULT_TEXT];
-    snprintf(about, sizeof about, "P V/(N kT) of the equation of state: %s.", theory.name);
+    const double pressure = system_number_density(system) * theory.compressibility_factor;
+    const char *unit = system->dimension == 2 ? "kT/d^2" : "kT/d^3";
+    char of_factor[RESULT_TEXT], of_pressure[RESULT_TEXT];
+    snprintf(of_factor, sizeof of_factor, "P V/(N kT) of the equation of state: %s.", theory.name);
+    snprintf(of_pressure, sizeof of_pressure, "Of the equation of state: %s.", theory.name);
     for (size_t replica = 0; replica < results->replicas; replica++) {
-        TRY(results_put_scalar(results, stage, "compressibility_factor_theory", "", about, replica,
-                               theory.compressibility_factor));
+        TRY(results_put_scalar(results, stage, "compressibility_factor_theory", "", of_factor,
+                               replica, theory.compressibility_factor));
+        TRY(results_put_scalar(results, stage, "pressure_theory", unit, of_pressure, replica,
+                               pressure));
     }
     return OK;
 }
@@ -22,7 +27,8 @@ Status derive_theory(Results *results, const char *stage, const System *system) 
 static Status derive_from(Results *results, const ResultSeries *series, const System *system) {
     const char *observable = series->observable;
     if (strcmp(observable, "mean_squared_displacement") == 0) {
-        return derive_diffusion(results, series);
+        TRY(derive_diffusion(results, series));
+        return derive_free_displacement(results, series, system);
     }
     if (strcmp(observable, "contact_distribution") == 0) {
         TRY(derive_contact(results, series));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers from results: what needs a fit, an extrapolation or a theory. It reads the series that
-// observers gave, whether fresh or from results.h5, and adds scalars per replica beside them, so
-// that their errors are over replicas like all others.
+// observers gave, whether fresh or from results.h5, and adds scalars (and series) per replica
+// beside them, so that their errors are over replicas like all others.
 #pragma once
 
 #include "results/results.h"
@@ -9,7 +9,8 @@
 
 // For every stage that has the series:
 //   short_time_diffusion, long_time_diffusion, long_time_window   of mean_squared_displacement
+//   free_displacement, a series: 2 dim D0 t of each species        of the same
 //   contact_value_A_B, compressibility_factor_contact             of contact_distribution
-//   compressibility_factor_theory                                 the equation of state
+//   compressibility_factor_theory, pressure_theory                the equation of state
 // With several species, diffusion is given for all particles and, with _NAME, for each species.
 Status analysis_derive(Results *results, const System *system);

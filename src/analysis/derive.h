@@ -6,5 +6,8 @@
 #include "state/system.h"
 
 Status derive_diffusion(Results *results, const ResultSeries *displacement);
+// Adds a series, so that `displacement` is no longer valid afterwards.
+Status derive_free_displacement(Results *results, const ResultSeries *displacement,
+                                const System *system);
 Status derive_contact(Results *results, const ResultSeries *distribution);
 Status derive_theory(Results *results, const char *stage, const System *system);

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the mean squared displacement would be without collisions: 2 dim D_a t, beyond a thermostat
+// interval. D_a/D0 is the mass of the first species over that of species a, since D_a =
+// thermostat_interval kT/(2 m_a); all particles together have the mean over particles.
+#include "analysis/derive.h"
+#include "base/memory.h"
+
+#include <string.h>
+
+static double free_diffusion(const System *system, size_t species) { // in D0
+    return system->species[0].mass / system->species[species].mass;
+}
+
+static double mean_free_diffusion(const System *system) {
+    size_t counts[SPECIES_MOST];
+    system_counts(system, counts);
+    double sum = 0, particles = 0;
+    for (size_t s = 0; s < system->species_count; s++) {
+        sum += (double)counts[s] * free_diffusion(system, s);
+        particles += (double)counts[s];
+    }
+    return sum / particles;
+}
+
+// values[species][direction][lag] as in the series; the last direction is the sum over the others.
+static void fill(const ResultSeries *series, const System *system, double *values) {
+    const size_t directions = series->axis[1].count;
+    const ResultAxis *time = &series->axis[2];
+    for (size_t s = 0; s < series->axis[0].count; s++) {
+        const bool one = s < system->species_count;
+        const double diffusion = one ? free_diffusion(system, s) : mean_free_diffusion(system);
+        for (size_t d = 0; d < directions; d++) {
+            const double dimensions = d + 1 < directions ? 1 : (double)(directions - 1);
+            for (size_t k = 0; k < time->count; k++) {
+                *values++ = 2 * dimensions * diffusion * time->values[k];
+            }
+        }
+    }
+}
+
+Status derive_free_displacement(Results *results, const ResultSeries *displacement,
+                                const System *system) {
+    ResultSeries shape = *displacement; // adding a series moves those that are there
+    if (strcmp(shape.axis[2].unit, "d^2/D0") != 0) return OK; // no thermostat, no diffusion
+    strcpy(shape.observable, "free_displacement");
+    strcpy(shape.about, "Mean squared displacement without collisions, beyond a thermostat "
+                        "interval: 2 dim D0 t, with the D0 of each species.");
+    double *values = NULL;
+    TRY(NEW_ARRAY(values, shape.size));
+    fill(&shape, system, values);
+    Status status = OK;
+    for (size_t replica = 0; status == OK && replica < results->replicas; replica++) {
+        status = results_put_series(results, &shape, replica, values);
+    }
+    memory_free(values);
+    return status;
+}
