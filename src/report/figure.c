@@ -113,7 +113,7 @@ static bool begins_curve(const Figure *figure, const size_t index[RESULT_AXES]) 
 static void choose_curves(Figure *figure) {
     for (size_t element = 0; element < figure->series->size; element++) {
         size_t index[RESULT_AXES];
-        series_indices(figure->series, element, index);
+        show_indices(figure->series, element, index);
         if (!begins_curve(figure, index)) continue;
         if (figure->curve_count == FIGURE_CURVES) {
             figure->left_out++;

@@ -75,36 +75,27 @@ void page_begin(Text *page, const Results *results) {
     put_verdict(page, results);
 }
 
-// A scalar NAME_equation_of_state is what theory says about NAME: it stands beside it.
-typedef struct Reference {
-    const char *ending, *title;
-} Reference;
-
-static const Reference REFERENCES[] = {
-    {"_equation_of_state", "equation of state"},
-    {"_expected", "expected"},
+// Becomes: {"pressure", "pressure_theory"}, ...
+static const struct {
+    const char *quantity, *reference;
+} REFERENCES[] = {
+#define REFERENCE(quantity, reference) {#quantity, #reference},
+#include "report/references.def"
+#undef REFERENCE
 };
 enum { REFERENCE_COUNT = sizeof REFERENCES / sizeof *REFERENCES };
 
 static bool is_reference(const char *quantity) {
     for (size_t i = 0; i < REFERENCE_COUNT; i++) {
-        const size_t length = strlen(quantity), ending = strlen(REFERENCES[i].ending);
-        if (length > ending && strcmp(quantity + length - ending, REFERENCES[i].ending) == 0) {
-            return true;
-        }
+        if (strcmp(REFERENCES[i].reference, quantity) == 0) return true;
     }
     return false;
 }
 
-static const ResultScalar *reference_of(const Results *results, const ResultScalar *scalar,
-                                        const char **title) {
+static const ResultScalar *reference_of(const Results *results, const ResultScalar *scalar) {
     for (size_t i = 0; i < REFERENCE_COUNT; i++) {
-        Text name = {0};
-        text_add(&name, "%s%s", scalar->quantity, REFERENCES[i].ending);
-        const ResultScalar *found = results_find_scalar(results, scalar->stage, text_words(&name));
-        text_free(&name);
-        *title = REFERENCES[i].title;
-        if (found) return found;
+        if (strcmp(REFERENCES[i].quantity, scalar->quantity) != 0) continue;
+        return results_find_scalar(results, scalar->stage, REFERENCES[i].reference);
     }
     return NULL;
 }
@@ -125,8 +116,7 @@ static void put_estimate(Text *page, Estimate estimate) {
 
 // Cells of the reference and of the deviation from it, in percent and in standard errors.
 static void put_reference(Text *page, const Results *results, const ResultScalar *scalar) {
-    const char *title = NULL;
-    const ResultScalar *reference = reference_of(results, scalar, &title);
+    const ResultScalar *reference = reference_of(results, scalar);
     if (!reference) {
         text_put(page, "<td></td><td></td>");
         return;

@@ -4,7 +4,7 @@
 
 #include "report/report.h"
 
-void series_indices(const ResultSeries *series, size_t element, size_t index[RESULT_AXES]) {
+void show_indices(const ResultSeries *series, size_t element, size_t index[RESULT_AXES]) {
     for (size_t axis = series->axes; axis-- > 0;) {
         index[axis] = element % series->axis[axis].count;
         element /= series->axis[axis].count;

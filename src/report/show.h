@@ -10,4 +10,4 @@ void show_csv(Text *text, const Results *results, const Selection *selection);
 void show_json(Text *text, const Results *results, const Selection *selection);
 
 // The index along each axis of an element of a series; the last axis runs fastest.
-void series_indices(const ResultSeries *series, size_t element, size_t index[RESULT_AXES]);
+void show_indices(const ResultSeries *series, size_t element, size_t index[RESULT_AXES]);

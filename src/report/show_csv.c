@@ -56,7 +56,7 @@ static void scalars(Text *text, const Results *results, const Selection *selecti
 static void series_line(Text *text, const Results *results, const ResultSeries *series,
                         size_t element) {
     size_t index[RESULT_AXES];
-    series_indices(series, element, index);
+    show_indices(series, element, index);
     for (size_t i = 0; i < series->axes; i++) {
         const ResultAxis *axis = &series->axis[i];
         if (axis->labels)

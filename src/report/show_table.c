@@ -105,7 +105,7 @@ static void name_with_unit(Table *table, const char *name, const char *unit) {
 static void series_point(Table *table, const Results *results, const ResultSeries *series,
                          size_t element) {
     size_t index[RESULT_AXES];
-    series_indices(series, element, index);
+    show_indices(series, element, index);
     for (size_t i = 0; i < series->axes; i++) {
         const ResultAxis *axis = &series->axis[i];
         if (axis->labels)
