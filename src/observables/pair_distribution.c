@@ -47,7 +47,7 @@ static const Option rows[] = {
     {.name = "contact.spacing",
      .type = OPTION_REAL,
      .offset = offsetof(PairSettings, contact_spacing),
-     .fallback = 0.002,
+     .fallback = 0.001,
      .least = 1e-5,
      .most = 0.1,
      .unit = "",
@@ -86,12 +86,22 @@ static Status check(const Settings *settings_, const System *system, const Clock
     (void)clock;
     const PairSettings *settings = (const PairSettings *)settings_->bytes;
     const Box box = system_box(system);
-    for (int a = 0; a < box.dimension; a++) {
-        if (settings->last <= box.edge[a] / 2) continue;
+    double shortest = box.edge[0], widest = 0;
+    for (int a = 1; a < box.dimension; a++) shortest = fmin(shortest, box.edge[a]);
+    for (size_t s = 0; s < system->species_count; s++) {
+        widest = fmax(widest, system->species[s].diameter);
+    }
+    if (settings->last > shortest / 2) {
         return status_fail(BAD_DATA,
                            "pair_distribution: distances.last = %g exceeds half of the box edge "
                            "%g, beyond which a particle meets its own images; make it shorter",
-                           settings->last, box.edge[a]);
+                           settings->last, shortest);
+    }
+    if (settings->contact_last * widest > shortest / 2) {
+        return status_fail(BAD_DATA,
+                           "pair_distribution: contact.last = %g diameters of %g exceed half of "
+                           "the box edge %g; take more particles",
+                           settings->contact_last, widest, shortest);
     }
     return OK;
 }

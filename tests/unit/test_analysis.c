@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Derived numbers from series whose answer is known, and equations of state against their values.
+#include "analysis/analysis.h"
+#include "analysis/equation_of_state.h"
+#include "observe.h"
+
+enum { REPLICAS = 16, LAGS = 41, BINS = 200 };
+static const RngKey KEY = {.seed = 7, .replica = 0};
+static const double NO_SPREAD[4] = {1, 1, 1, 1};
+
+// Values computed by another program from the virial coefficients of Clisby & McCoy (2006), by
+// hand from the printed formulae, and, for the mixture, by the rule of Santos et al.
+START_TEST(equations_of_state_have_their_known_values) {
+    ck_assert_double_eq_tol(equation_discs_resummed(0.1), 1.23614, 1e-5);
+    ck_assert_double_eq_tol(equation_discs_resummed(0.4), 2.82933, 1e-4);
+    ck_assert_double_eq_tol(equation_discs_resummed(0.6), 6.45693, 0.005);
+    ck_assert_double_eq_tol(equation_baus_colot(0.2), 1.57037, 1e-5);
+    ck_assert_double_eq_tol(equation_baus_colot(0.4), 2.8294, 1e-5);
+    ck_assert_double_eq_tol(equation_baus_colot(0.66), 8.96704, 1e-5);
+    ck_assert_double_eq_tol(equation_kolafa(0.1), 1.52165, 1e-4);
+    ck_assert_double_eq_tol(equation_kolafa(0.3), 3.9842, 5e-4);
+    ck_assert_double_eq_tol(equation_kolafa(0.45), 9.405, 0.005);
+    ck_assert_double_eq_tol(equation_carnahan_starling(0.3), 1.363 / 0.343, 1e-12);
+}
+END_TEST
+
+START_TEST(binary_discs_have_their_known_values) {
+    const double moment[4] = {1, 1.2, 1.48, 0};
+    ck_assert_double_eq_tol(equation_jenkins_mancini(0.4, moment), 2.8018, 1e-4);
+    ck_assert_double_eq_tol(equation_jenkins_mancini(0.7, moment), 11.56306, 1e-5);
+    ck_assert_double_eq_tol(equation_disc_mixture(0.4, moment, equation_discs_resummed(0.4)),
+                            2.7979, 0.002);
+    ck_assert_double_eq_tol(equation_disc_mixture(0.7, moment, equation_discs_resummed(0.7)), 11.28,
+                            0.1);
+    const System system = system_of(2, 1000, 0.7, 2);
+    ck_assert_double_eq_tol((equation_second_virial(&system) - 1) / system_number_density(&system),
+                            2.2933627, 1e-7);
+}
+END_TEST
+
+START_TEST(mixtures_of_equals_are_pure) {
+    for (double eta = 0.05; eta < 0.5; eta += 0.05) {
+        ck_assert_double_eq_tol(equation_sphere_mixture(eta, NO_SPREAD),
+                                equation_carnahan_starling(eta), 1e-12);
+        ck_assert_double_eq_tol(equation_jenkins_mancini(eta, NO_SPREAD), equation_henderson(eta),
+                                1e-12);
+    }
+}
+END_TEST
+
+// _i: dimension, number of species.
+START_TEST(dilute_limit_is_the_second_virial_coefficient) {
+    const System system = system_of(2 + _i % 2, 1000, 1e-4, 1 + (size_t)_i / 2);
+    const double virial = equation_second_virial(&system) - 1;
+    ck_assert_double_eq_tol((equation_of_state(&system).compressibility_factor - 1) / virial, 1,
+                            1e-3);
+}
+END_TEST
+
+// <r^2> of the kind of a colloid in a cage: 4 D t + c (1 - exp(-t/cage)), noise per replica.
+static Results *displacements(double diffusion, double cage_size, double cage_time, double noise,
+                              const char *unit) {
+    static const char *const species[] = {"disc"}, *const directions[] = {"x", "y", "total"};
+    double times[LAGS], values[3 * LAGS];
+    for (int k = 0; k < LAGS; k++) times[k] = 1e-3 * pow(10, k / 10.0);
+    const ResultSeries shape = {
+        .stage = "quiescent",
+        .observable = "mean_squared_displacement",
+        .axes = 3,
+        .axis = {{.name = "species", .unit = "", .count = 1, .labels = species},
+                 {.name = "direction", .unit = "", .count = 3, .labels = directions},
+                 {.name = "time", .unit = unit, .count = LAGS, .values = times}}};
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, REPLICAS), OK);
+    for (size_t r = 0; r < REPLICAS; r++) {
+        Rng rng = rng_open(KEY, STREAM_VELOCITY, r, 0);
+        for (int k = 0; k < LAGS; k++) {
+            const double t = times[k];
+            const double exact = 4 * diffusion * t + cage_size * (1 - exp(-t / cage_time));
+            // errors grow towards long lags, which have few origins
+            const double factor = 1 + noise * sqrt(t / 10) * rng_normal(&rng);
+            for (int a = 0; a < 3; a++) values[a * LAGS + k] = exact * factor / (a < 2 ? 2 : 1);
+        }
+        ck_assert_int_eq(results_put_series(results, &shape, r, values), OK);
+    }
+    return results;
+}
+
+START_TEST(long_time_diffusion_is_the_slope_beyond_the_cage) {
+    const System system = system_of(2, 1000, 0.7, 1);
+    Results *results = displacements(0.05, 0.1, 0.1, 0.02, "d^2/D0");
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    const double error = error_of(results, "quiescent", "long_time_diffusion");
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "long_time_diffusion"), 0.05,
+                            4 * error);
+    ck_assert_double_lt(error, 0.001);
+    const double begin = scalar_of(results, "quiescent", "long_time_window");
+    ck_assert_double_gt(begin, 0.1); // not inside the cage
+    ck_assert_double_lt(begin, 5);
+    ck_assert_str_eq(results_find_scalar(results, "quiescent", "long_time_diffusion")->unit, "D0");
+    results_free(results);
+}
+END_TEST
+
+START_TEST(where_the_slope_still_falls_the_last_stretch_is_taken) {
+    const System system = system_of(2, 1000, 0.7, 1);
+    Results *results = displacements(0.001, 10, 5, 1e-6, "d^2/D0");
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    ck_assert_double_ge(scalar_of(results, "quiescent", "long_time_window"), 2.5);
+    ck_assert_double_gt(scalar_of(results, "quiescent", "long_time_diffusion"), 0.001);
+    results_free(results);
+}
+END_TEST
+
+START_TEST(short_time_diffusion_is_where_flight_ends) {
+    // Flight <r^2> = 4 t^2/h up to h = 0.01, then 4 t: D = 1 at h, less before.
+    static const char *const species[] = {"small", "big", "all"};
+    static const char *const directions[] = {"x", "y", "total"};
+    double times[LAGS], values[9 * LAGS];
+    for (int k = 0; k < LAGS; k++) times[k] = 1e-4 * pow(10, k / 10.0);
+    for (int s = 0; s < 9; s++) {
+        for (int k = 0; k < LAGS; k++) {
+            const double t = times[k], flight = t < 0.01 ? t / 0.01 : 1 - 0.1 * (t - 0.01) / t;
+            values[s * LAGS + k] = (s % 3 < 2 ? 2 : 4) * t * flight / (s / 3 == 1 ? 2 : 1);
+        }
+    }
+    const ResultSeries shape = {
+        .stage = "quiescent",
+        .observable = "mean_squared_displacement",
+        .axes = 3,
+        .axis = {{.name = "species", .unit = "", .count = 3, .labels = species},
+                 {.name = "direction", .unit = "", .count = 3, .labels = directions},
+                 {.name = "time", .unit = "d^2/D0", .count = LAGS, .values = times}}};
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(results_put_series(results, &shape, 0, values), OK);
+    const System system = system_of(2, 1000, 0.7, 2);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "short_time_diffusion"), 1, 1e-9);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "short_time_diffusion_small"), 1, 1e-9);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "short_time_diffusion_big"), 0.5, 1e-9);
+    results_free(results);
+}
+END_TEST
+
+START_TEST(newtonian_flight_has_no_brownian_short_time) {
+    const System system = system_of(2, 1000, 0.7, 1);
+    Results *results = displacements(0.05, 0.1, 0.1, 0.02, "d sqrt(m/kT)");
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    ck_assert(!results_find_scalar(results, "quiescent", "short_time_diffusion"));
+    ck_assert_str_eq(results_find_scalar(results, "quiescent", "long_time_diffusion")->unit,
+                     "d sqrt(kT/m)");
+    results_free(results);
+}
+END_TEST
+
+// g = contact exp(-decay (x - 1)), averaged over bins.
+static Results *contacts(double contact, double decay) {
+    static const char *const pair[] = {"disc-disc"};
+    const double width = 0.001, weight = 1.5;
+    double places[BINS], values[BINS];
+    for (int k = 0; k < BINS; k++) {
+        places[k] = 1 + (k + 0.5) * width;
+        values[k] = contact * exp(-decay * k * width) * (1 - exp(-decay * width)) / (decay * width);
+    }
+    const ResultAxis pairs = {.name = "pair", .unit = "", .count = 1, .labels = pair};
+    const ResultSeries shape = {
+        .stage = "quiescent",
+        .observable = "contact_distribution",
+        .axes = 2,
+        .axis = {pairs, {.name = "scaled_distance", .unit = "", .count = BINS, .values = places}}};
+    const ResultSeries weights = {
+        .stage = "quiescent", .observable = "contact_weight", .axes = 1, .axis = {pairs}};
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(results_put_series(results, &shape, 0, values), OK);
+    ck_assert_int_eq(results_put_series(results, &weights, 0, &weight), OK);
+    return results;
+}
+
+START_TEST(contact_value_of_an_exponential_is_found) {
+    static const double decay[] = {0.5, 3, 15, 40};
+    const System system = system_of(2, 1000, 0.7, 1);
+    Results *results = contacts(7, decay[_i]);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    const double contact = scalar_of(results, "quiescent", "contact_value_disc_disc");
+    ck_assert_double_eq_tol(contact, 7, 7 * 2e-4);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "compressibility_factor_contact"),
+                            1 + 1.5 * contact, 1e-12);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "compressibility_factor_theory"),
+                            equation_discs_resummed(0.7), 1e-12);
+    results_free(results);
+}
+END_TEST
+
+START_TEST(deriving_twice_changes_nothing) {
+    const System system = system_of(2, 1000, 0.7, 1);
+    Results *results = displacements(0.05, 0.1, 0.1, 0.02, "d^2/D0");
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    const size_t scalars = results->scalar_count;
+    const double diffusion = scalar_of(results, "quiescent", "long_time_diffusion");
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    ck_assert_uint_eq(results->scalar_count, scalars);
+    ck_assert_double_eq(scalar_of(results, "quiescent", "long_time_diffusion"), diffusion);
+    results_free(results);
+}
+END_TEST
+
+int main(void) {
+    Suite *suite = suite_create("analysis");
+    TCase *c = tcase_create("analysis");
+    tcase_add_test(c, equations_of_state_have_their_known_values);
+    tcase_add_test(c, binary_discs_have_their_known_values);
+    tcase_add_test(c, mixtures_of_equals_are_pure);
+    tcase_add_loop_test(c, dilute_limit_is_the_second_virial_coefficient, 0, 4);
+    tcase_add_test(c, long_time_diffusion_is_the_slope_beyond_the_cage);
+    tcase_add_test(c, where_the_slope_still_falls_the_last_stretch_is_taken);
+    tcase_add_test(c, short_time_diffusion_is_where_flight_ends);
+    tcase_add_test(c, newtonian_flight_has_no_brownian_short_time);
+    tcase_add_loop_test(c, contact_value_of_an_exponential_is_found, 0, 4);
+    tcase_add_test(c, deriving_twice_changes_nothing);
+    suite_add_tcase(suite, c);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed != 0;
+}

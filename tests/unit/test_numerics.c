@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The shared mathematics against exact values.
+#include "numerics/fit.h"
+#include "numerics/pade.h"
+#include "numerics/turn.h"
+
+#include <check.h>
+#include <math.h>
+
+START_TEST(turns_are_cosines_and_sines_to_the_last_digits) {
+    for (int k = -4000; k <= 4000; k++) {
+        const double fraction = k / 1777.0;
+        double c, s;
+        turn_cosine_sine(fraction, &c, &s);
+        const long double angle = 2 * 3.14159265358979323846264338L * (long double)fraction;
+        ck_assert_double_eq_tol(c, (double)cosl(angle), 3e-16);
+        ck_assert_double_eq_tol(s, (double)sinl(angle), 3e-16);
+    }
+}
+END_TEST
+
+START_TEST(quarter_turns_are_exact) {
+    double c, s;
+    turn_cosine_sine(0.75, &c, &s);
+    ck_assert_double_eq(c, 0);
+    ck_assert_double_eq(s, -1);
+    turn_cosine_sine(-0.5, &c, &s);
+    ck_assert_double_eq(c, -1);
+    ck_assert_double_eq(s, 0);
+}
+END_TEST
+
+START_TEST(pade_of_a_rational_function_is_itself) {
+    // (1 + 2 x)/(1 - x - x^2) = 1 + 3 x + 4 x^2 + 7 x^3 + 11 x^4 + ... (Lucas numbers)
+    static const double series[] = {1, 3, 4, 7, 11};
+    ck_assert_double_eq_tol(pade(series, 1, 2, 0.3), 1.6 / (1 - 0.3 - 0.09), 1e-13);
+}
+END_TEST
+
+START_TEST(pade_sums_a_slow_series) {
+    // ln(1 + x)/x at x = 3, far outside the circle of convergence.
+    double series[10];
+    for (int k = 0; k < 10; k++) series[k] = (k % 2 ? -1.0 : 1.0) / (k + 1);
+    ck_assert_double_eq_tol(pade(series, 4, 5, 3), log(4) / 3, 1e-4);
+}
+END_TEST
+
+START_TEST(slope_of_a_straight_line_is_exact) {
+    static const double x[] = {1, 2, 4, 8}, y[] = {5, 8, 14, 26}, w[] = {1, 0.25, 0.0625, 0.015625};
+    ck_assert_double_eq_tol(fit_slope(x, y, w, 4), 3, 1e-13);
+}
+END_TEST
+
+START_TEST(edge_of_a_cubic_is_found_from_its_averages) {
+    // Averages of 7 - 5 u + 4 u^2 - 2 u^3 over ten bins of width 0.1.
+    double y[10], value = 0;
+    for (int k = 0; k < 10; k++) {
+        double integral[2];
+        for (int e = 0; e < 2; e++) {
+            const double u = (k + e) / 10.0;
+            integral[e] = 7 * u - 5 * u * u / 2 + 4 * u * u * u / 3 - u * u * u * u / 2;
+        }
+        y[k] = (integral[1] - integral[0]) * 10;
+    }
+    ck_assert_int_eq(fit_value_at_edge(y, 10, 3, &value), OK);
+    ck_assert_double_eq_tol(value, 7, 1e-11);
+    ck_assert_int_eq(fit_value_at_edge(y, 3, 3, &value), BAD_DATA);
+}
+END_TEST
+
+int main(void) {
+    Suite *suite = suite_create("numerics");
+    TCase *c = tcase_create("numerics");
+    tcase_add_test(c, turns_are_cosines_and_sines_to_the_last_digits);
+    tcase_add_test(c, quarter_turns_are_exact);
+    tcase_add_test(c, pade_of_a_rational_function_is_itself);
+    tcase_add_test(c, pade_sums_a_slow_series);
+    tcase_add_test(c, slope_of_a_straight_line_is_exact);
+    tcase_add_test(c, edge_of_a_cubic_is_found_from_its_averages);
+    suite_add_tcase(suite, c);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed != 0;
+}
