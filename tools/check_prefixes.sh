@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Every external name of the library begins with its module's name, or with a word that
-# src/layers.txt gives the module. Takes the build folder. Prints FILE: name; fails if there is one.
+# Every external name of the library begins with the name of its module or of its file, or with a
+# word that src/layers.txt gives the module. Takes the build folder. Prints FILE: name; fails if
+# there is one.
 set -eu
 build=$(cd "${1:-build}" && pwd)
 cd "$(dirname "$0")/.."
@@ -20,14 +21,18 @@ objects=$build/CMakeFiles/perrin.dir/src
     {
         split($1, part, "/")
         module = part[2]
-        file = part[2] "/" part[3]
+        file = stem = part[3]
         sub(/\.o:.*/, "", file)
+        sub(/\.c\.o:.*/, "", stem)
+        sub(/_(portable|avx2|avx512)$/, "", stem)
+        one = stem # sections.c has section_...
+        sub(/s$/, "", one)
         name = $NF
-        first = name
-        sub(/_.*/, "", first)
         if (name ~ /^__(asan|odr|start|stop|sanitizer)/) next
-        if (first == module || (module, first) in allowed) next
-        print "src/" file ": " name
+        if (index(name "_", module "_") == 1 || index(name "_", stem "_") == 1) next
+        if (index(name "_", one "_") == 1) next
+        for (begin = name; begin != ""; sub(/_?[^_]*$/, "", begin)) if ((module, begin) in allowed) next
+        print "src/" module "/" file ": " name
         bad = 1
     }
     END { exit bad }

@@ -15,19 +15,19 @@ done <"$table"
 [ -n "$missing" ] || exit 0
 
 stop() {
+    echo "setup: missing:$missing (Debian's names)" >&2
     echo "setup: $1" >&2
-    echo "setup: missing (Debian names):$missing" >&2
     exit 1
 }
 
 command -v apt-get >/dev/null ||
-    stop "this is not Debian: please install the packages below as your system names them"
+    stop "this is not Debian: please install these as your system names them, then try again"
 if [ "$(id -u)" -eq 0 ]; then
     as_root=env
 elif command -v sudo >/dev/null && { sudo -n true 2>/dev/null || { [ -t 0 ] && sudo -v; }; }; then
     as_root='sudo env'
 else
-    stop "cannot install without root or sudo: please ask your administrator for the packages below"
+    stop "neither root nor sudo here: someone who is root must run apt-get install$missing"
 fi
 
 echo "setup: installing$missing"
@@ -41,5 +41,5 @@ trap 'rm -f "$log"' EXIT
 # A fresh machine has no package lists, or old ones that name files no longer there.
 install || { $as_root apt-get update -qq </dev/null >"$log" 2>&1 && install; } || {
     cat "$log" >&2
-    stop "the installation failed, see above"
+    stop "apt-get could not install them, see above"
 }
