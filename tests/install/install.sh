@@ -1,0 +1,56 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Installs BUILD under a prefix with a blank in its name, builds the example program against it as
+# C and as C++ by pkg-config and by CMake, and runs it; the header must do on its own; the library
+# must show no name but its own.
+set -eu
+build=$(cd "$1" && pwd)
+here=$(cd "$(dirname "$0")" && pwd)
+example=$(cd "$here/../../examples/library" && pwd)
+work=$build/install-test
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+prefix="$work/the prefix"
+
+fail() {
+    echo "install: $1" >&2
+    exit 1
+}
+
+cmake --install "$build" --prefix "$prefix" >install.log || fail "$(cat install.log)"
+"$prefix/bin/perrin" version >/dev/null
+
+PKG_CONFIG_PATH="$prefix/lib/pkgconfig"
+export PKG_CONFIG_PATH
+libs=$(pkg-config --libs perrin)
+strict="-Wall -Wextra -Wpedantic -Werror"
+
+for standard in c11 c17; do
+    echo '#include <perrin/perrin.h>' >header.c
+    eval "gcc -std=$standard $strict $(pkg-config --cflags perrin) -c header.c -o header.o" ||
+        fail "the header is not $standard on its own"
+done
+for standard in c++11 c++17; do
+    eval "g++ -std=$standard $strict -x c++ $(pkg-config --cflags perrin) -c header.c -o header.o" ||
+        fail "the header is not $standard on its own"
+done
+
+try() { # PROGRAM: it runs and says what it should
+    "./$1" "$here/run.yaml" "$1-run" >"$1.out" 2>"$1.err" || fail "$1: $(cat "$1.err")"
+    grep -q '^quiescent/long_time_diffusion.* = ' "$1.out" || fail "$1 printed: $(cat "$1.out")"
+}
+eval "gcc -std=c11 $strict $(pkg-config --cflags perrin) '$example/diffusion.c' $libs -o as-c"
+try as-c
+eval "g++ -std=c++17 $strict -x c++ $(pkg-config --cflags perrin) '$example/diffusion.c' -x none \
+    $libs -o as-cpp"
+try as-cpp
+cmake -S "$example" -B cmake-build -DCMAKE_PREFIX_PATH="$prefix" >cmake.log 2>&1 &&
+    make -s -C cmake-build >>cmake.log 2>&1 || fail "$(cat cmake.log)"
+cp cmake-build/diffusion by-cmake
+try by-cmake
+cmp as-c.out as-cpp.out && cmp as-c.out by-cmake.out || fail "three programs, three results"
+
+names=$(nm -g --defined-only "$prefix/lib/libperrin.a" | awk 'NF == 3 { print $3 }' | grep -v '^perrin_') || true
+[ -z "$names" ] || fail "the library shows names that are not its own: $names"
+echo "installed, linked as C, as C++ and by CMake, and run: $(cat as-c.out)"
