@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "config/config.h"
+#include "protocol/replica.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -69,6 +70,10 @@ static void print_cost(const Plan *plan) {
     const double seconds = plan_seconds(plan);
     printf("memory    %.3g MiB per replica, %.3g MiB for all %.0f\n", memory, memory * replicas,
            replicas);
+    // A frame holds three coordinates and three image counts per particle.
+    const double frame = (double)plan->system.particles * 3 * (sizeof(double) + sizeof(int32_t));
+    printf("disk      %.3g MiB of trajectories\n",
+           frame * (double)plan_frames(plan) * replicas / MEBIBYTE);
     printf("time      about ");
     print_seconds(seconds);
     printf(" per replica, ");
@@ -113,7 +118,7 @@ static Status check(const Arguments *arguments) {
 }
 
 static const Flag flags[] = {
-    {0, "set", "KEY=VALUE", "Replace a value of the run file; may be given several times."},
+    {'s', "set", "KEY=VALUE", "Override a key of the run file; may be given again."},
     {0, "all", NULL, "Print the run file with all defaults written out instead."},
     {0},
 };

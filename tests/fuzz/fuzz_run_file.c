@@ -3,6 +3,7 @@
 // written as a run file that reads back as the same plan, and cost a known amount.
 #include "base/memory.h"
 #include "config/config.h"
+#include "protocol/replica.h"
 
 #include <string.h>
 
@@ -35,6 +36,7 @@ int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t size) {
     demand_written_plan_reads_back(plan);
     ASSERT(plan_memory(plan) > 0);
     ASSERT(plan_seconds(plan) >= 0);
+    ASSERT(plan_frames(plan) >= 0);
     memory_free(plan);
     return 0;
 }
