@@ -103,7 +103,7 @@ static Status judge_density(const Node *map, const System *system) {
     if (!(value > 0)) return tree_fail(given, "%s = %g must be above 0", given->key, value);
     const double packing = system_packing_fraction(system), densest = densest_packing(system);
     if (packing > densest)
-        return tree_fail(given, "packing_fraction = %.4g%s exceeds %.4g, the densest packing of %s",
+        return tree_fail(given, "packing_fraction = %.6g%s exceeds %.6g, the densest packing of %s",
                          packing, fraction ? "" : ", which this number_density gives,", densest,
                          what_packs(system));
     return placed(given, packing_check(system));
