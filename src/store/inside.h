@@ -10,9 +10,6 @@
 struct Store {
     Folder folder;
     int lock;             // descriptor of perrin.lock
-    uint64_t plan;        // names the plan: inside_hash of its text
+    uint64_t plan;        // names the plan: hash of its text
     pthread_mutex_t hdf5; // HDF5 is used by one thread at a time
 };
-
-// FNV-1a: tells plans apart, guards against mix-ups, not against malice.
-uint64_t inside_hash(const char *text);

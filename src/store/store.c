@@ -19,7 +19,8 @@
 
 enum { HOLDER_SIZE = 128 };
 
-uint64_t inside_hash(const char *text) {
+// FNV-1a: tells plans apart, guards against mix-ups, not against malice.
+static uint64_t plan_hash(const char *text) {
     uint64_t hash = 0xcbf29ce484222325;
     for (; *text; text++) hash = (hash ^ (unsigned char)*text) * 0x100000001b3;
     return hash;
@@ -138,7 +139,7 @@ Status store_take_plan(Store *store, const char *plan, bool *resumes) {
     if (there && strcmp(there, plan) != 0) status = tell_difference(store, there, plan);
     free(there);
     TRY(status);
-    store->plan = inside_hash(plan);
+    store->plan = plan_hash(plan);
     if (*resumes) return OK;
     TRY(refuse_orphans(store));
     return store_write_text(store, "plan.yaml", plan);

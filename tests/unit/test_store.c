@@ -16,11 +16,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static char directory[] = "/tmp/perrin-store-XXXXXX";
+static char directory[] = "/tmp/perrin-store-123456"; // the digits are mkdtemp's to change
 static char run[sizeof directory + 8];
 
 static void make_directory(void) {
-    strcpy(directory + sizeof directory - 7, "XXXXXX");
+    memset(directory + sizeof directory - 7, 'X', 6);
     ck_assert_ptr_nonnull(mkdtemp(directory));
     snprintf(run, sizeof run, "%s/run", directory);
 }

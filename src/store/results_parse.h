@@ -6,4 +6,4 @@
 
 // `results` is given even when this fails, once it was begun. To be called where a crash of HDF5
 // does no harm.
-Status results_read_hdf5(Results **results, void *bytes, size_t size);
+Status store_parse_results(Results **results, void *bytes, size_t size);
