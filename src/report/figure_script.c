@@ -76,7 +76,7 @@ static void put_head(Text *script, const Figure *figure) {
                  "pointsize 0.6\n",
                  i + 1, PALETTE[i], MARKS[i]);
     }
-    const char *key = figure->kind && figure->kind->key ? figure->kind->key : "right top";
+    const char *key = figure->kind && figure->kind->key ? figure->kind->key : "above";
     text_add(script, "set key %s noenhanced samplen 2 spacing 1.2\n", key);
 }
 
@@ -100,14 +100,19 @@ static void put_axes(Text *script, const Figure *figure) {
     put_y_label(script, figure);
 }
 
-// Black for what is summed over species, a colour of its own for every other curve.
-static size_t look_of(const Figure *figure, size_t curve) {
-    static const size_t BLACK = 7;
+static bool is_sum(const Figure *figure, size_t curve) { // over species
     const char *title = figure->curve[curve].title;
-    return strcmp(title, "all") == 0 || strcmp(title, "total") == 0 ? BLACK : curve + 1;
+    return strcmp(title, "all") == 0 || strcmp(title, "total") == 0;
 }
 
-// Where there are too many points for marks with bars, the bars become a band.
+// Black for sums, a colour of its own for every other curve.
+static size_t look_of(const Figure *figure, size_t curve) {
+    static const size_t BLACK = 7;
+    return is_sum(figure, curve) ? BLACK : curve + 1;
+}
+
+// Marks with bars; where there are too many points for them, a line in a band. A sum among marks is
+// a plain line, not to hide its parts.
 static void put_curve(Text *script, const Figure *figure, size_t curve, const char *value,
                       const char *error, const char *title) {
     const bool has_errors = figure->results->replicas > 1, dense = figure_is_dense(figure);
@@ -119,11 +124,12 @@ static void put_curve(Text *script, const Figure *figure, size_t curve, const ch
                  "\\\n",
                  value, error, value, error, look);
     }
+    const bool marks = !dense && !is_sum(figure, curve);
     text_add(script, "  data using 1:(%s)", value);
-    if (has_errors && !dense)
+    if (has_errors && marks)
         text_add(script, ":(%s) with yerrorlines", error);
     else
-        text_add(script, " with %s", dense ? "lines" : "linespoints");
+        text_add(script, " with %s", marks ? "linespoints" : "lines");
     text_add(script, " linetype %zu title ", look);
     gnuplot_quoted(script, title);
 }

@@ -207,14 +207,14 @@ void page_health(Text *page, const Results *results) {
     text_put(page, "</table>\n");
 }
 
-static bool is_plan(const ResultFact *fact) {
-    return strcmp(fact->name, "plan") == 0;
+static bool is_elsewhere(const ResultFact *fact) { // above, or below the table
+    return strcmp(fact->name, "plan") == 0 || strcmp(fact->name, "title") == 0;
 }
 
 void page_provenance(Text *page, const Results *results) {
     text_put(page, "<h2>Provenance</h2>\n<table class=\"facts\">\n");
     for (size_t i = 0; i < results->fact_count; i++) {
-        if (is_plan(&results->facts[i])) continue;
+        if (is_elsewhere(&results->facts[i])) continue;
         text_put(page, "<tr><td>");
         html_name(page, results->facts[i].name);
         text_put(page, "</td><td>");

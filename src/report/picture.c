@@ -124,6 +124,16 @@ static void put_colour(Text *page, const char *colour, double with_white) {
              mixed(rgb >> 8 & 0xff, with_white), mixed(rgb & 0xff, with_white));
 }
 
+static void put_highlight(Text *page, const View *view, const Disc *disc, double scale) {
+    static const double ASIDE = 0.3, SIZE = 0.4; // in radii, towards the light
+    text_add(page,
+             "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"#fff\" fill-opacity=\"0.3\" "
+             "stroke=\"none\"/>\n",
+             (disc->x - ASIDE * disc->radius) * scale,
+             (view->window[1] - disc->y - ASIDE * disc->radius) * scale,
+             SIZE * disc->radius * scale);
+}
+
 static void put_disc(Text *page, const View *view, const Disc *disc, double scale) {
     const char *colour = PALETTE[disc->species % PALETTE_SIZE];
     const double below = (view->box[2] - disc->z) / DEPTH; // 0 at the surface, 1 at the bottom
@@ -134,6 +144,7 @@ static void put_disc(Text *page, const View *view, const Disc *disc, double scal
     text_put(page, "\" stroke=\"");
     put_colour(page, colour, view->dimension == 3 ? fmax(0, pale - 0.4) : 0.0);
     text_put(page, "\"/>\n");
+    if (view->dimension == 3) put_highlight(page, view, disc, scale);
 }
 
 static double bar_length(double width) { // 1, 2 or 5 times a power of ten, near a fifth
