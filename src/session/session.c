@@ -5,6 +5,7 @@
 #include "analysis/analysis.h"
 #include "base/cpu.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "config/config.h"
 #include "report/report.h"
@@ -24,12 +25,46 @@ struct Session {
     char report_note[1024];
 };
 
+// Key by key, where the other plan can still be read: its version may know other keys.
+static Status tell_other_plan(const Session *session, const char *there) {
+    Plan *other = NULL;
+    char *difference = NULL, *rest = NULL;
+    Text keys = {0};
+    char sentence[1024];
+    snprintf(sentence, sizeof sentence, "%s", status_sentence());
+    Status status = config_read_text(&other, "plan.yaml", there, strlen(there), NULL);
+    if (status == OK) status = config_difference(other, session->plan, &difference);
+    char *line = status == OK ? strtok_r(difference, "\n", &rest) : NULL;
+    for (; line; line = strtok_r(NULL, "\n", &rest)) {
+        text_add(&keys, "%s%s", keys.length ? "; " : "", line);
+    }
+    if (keys.length > 0 && text_status(&keys) == OK) {
+        snprintf(sentence, sizeof sentence,
+                 "'%s' holds a run of another plan: %.700s; choose another directory with -o",
+                 store_directory(session->store), text_words(&keys));
+    }
+    text_free(&keys);
+    memory_free(difference);
+    memory_free(other);
+    return status_fail(LOCKED, "%s", sentence);
+}
+
+static Status take_plan(Session *session) {
+    char *there = NULL;
+    Status status = store_take_plan(session->store, session->plan_text, &session->resumes);
+    if (status != LOCKED) return status;
+    status = store_read_text(session->store, "plan.yaml", &there);
+    if (status == OK) status = there ? tell_other_plan(session, there) : LOCKED;
+    memory_free(there);
+    return status;
+}
+
 static Status begin(Session *session, const SessionWishes *wishes) {
     TRY(plan_check(session->plan));
     TRY(config_write(session->plan, &session->plan_text));
     TRY(store_open(&session->store, wishes->directory));
     store_ignore_signals();
-    TRY(store_take_plan(session->store, session->plan_text, &session->resumes));
+    TRY(take_plan(session));
     if (wishes->must_resume && !session->resumes) {
         return status_fail(BAD_USAGE, "nothing to resume in %s", wishes->directory);
     }
