@@ -11,7 +11,7 @@
 enum { SENTENCE_SIZE = 1024 };
 static _Thread_local char sentence[SENTENCE_SIZE];
 
-static void keep(const char *format, va_list arguments) {
+__attribute__((format(printf, 1, 0))) static void keep(const char *format, va_list arguments) {
     // The arguments may point into the sentence itself, when a failure is told with more context.
     char fresh[SENTENCE_SIZE];
     vsnprintf(fresh, sizeof fresh, format, arguments);

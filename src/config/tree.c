@@ -25,8 +25,8 @@ typedef struct TreeReader {
     size_t nodes;
 } TreeReader;
 
-static Status fail_at(const char *source, int line, int column, const char *format,
-                      va_list arguments) {
+__attribute__((format(printf, 4, 0))) static Status
+fail_at(const char *source, int line, int column, const char *format, va_list arguments) {
     char sentence[768];
     vsnprintf(sentence, sizeof sentence, format, arguments);
     if (line == 0) return status_fail(BAD_DATA, "--set %s: error: %s", source, sentence);

@@ -393,7 +393,6 @@ static State *some_state(size_t count) {
     System system = {.dimension = 2,
                      .particles = (int64_t)count,
                      .packing_fraction = 0.3,
-                     .aspect = {1, 1, 1},
                      .species_count = 2,
                      .species = {{.name = "small", .diameter = 1, .mass = 1, .fraction = 0.5},
                                  {.name = "big", .diameter = 1.4, .mass = 1, .fraction = 0.5}}};
