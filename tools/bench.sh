@@ -10,9 +10,10 @@ if [ "${1:-}" = --record ]; then
     record=yes
     shift
 fi
-machine=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1 |
+machine=$(awk -F ': *' '/^model name/ { name = $2 } /^model\t/ { model = $2 }
+    END { print name " model " model }' /proc/cpuinfo |
     tr '[:upper:]' '[:lower:]' | tr -cs 'a-z0-9' '-' | sed 's/^-//; s/-$//')
-baseline=bench/results/${machine:-unknown}.csv
+baseline=bench/results/$machine.csv
 
 PERRIN_BENCH_CSV=$(mktemp)
 export PERRIN_BENCH_CSV
