@@ -155,6 +155,33 @@ START_TEST(newtonian_flight_has_no_brownian_short_time) {
 END_TEST
 
 // g = contact exp(-decay (x - 1)), averaged over bins.
+START_TEST(heavier_species_diffuse_freely_in_proportion_less) {
+    static const char *const species[] = {"light", "heavy", "all"};
+    static const char *const directions[] = {"x", "y", "total"};
+    System system = system_of(2, 100, 0.1, 2);
+    system.species[0] = (Species){.diameter = 1, .mass = 2, .fraction = 0.25};
+    system.species[1] = (Species){.diameter = 1, .mass = 8, .fraction = 0.75};
+    const double times[] = {0.1, 1, 2}, values[27] = {0};
+    const ResultSeries shape = {
+        .stage = "quiescent",
+        .observable = "mean_squared_displacement",
+        .axes = 3,
+        .axis = {{.name = "species", .unit = "", .count = 3, .labels = species},
+                 {.name = "direction", .unit = "", .count = 3, .labels = directions},
+                 {.name = "time", .unit = "d^2/D0", .count = 3, .values = times}}};
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(results_put_series(results, &shape, 0, values), OK);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    const double *line = results_find_series(results, "quiescent", "free_displacement")->values;
+    ck_assert_double_eq(line[2], 2 * 2);              // light, along x, t = 2
+    ck_assert_double_eq(line[8], 4 * 2);              // light, total
+    ck_assert_double_eq(line[17], 4 * 2 * 0.25);      // heavy: D0 goes with 1/m
+    ck_assert_double_eq(line[26], 4 * 2 * 1.75 / 4.); // all: 25 light, 75 heavy
+    results_free(results);
+}
+END_TEST
+
 static Results *contacts(double contact, double decay) {
     static const char *const pair[] = {"disc-disc"};
     const double width = 0.001, weight = 1.5;
@@ -217,6 +244,7 @@ int main(void) {
     tcase_add_test(c, where_the_slope_still_falls_the_last_stretch_is_taken);
     tcase_add_test(c, short_time_diffusion_is_where_flight_ends);
     tcase_add_test(c, newtonian_flight_has_no_brownian_short_time);
+    tcase_add_test(c, heavier_species_diffuse_freely_in_proportion_less);
     tcase_add_loop_test(c, contact_value_of_an_exponential_is_found, 0, 4);
     tcase_add_test(c, deriving_twice_changes_nothing);
     suite_add_tcase(suite, c);

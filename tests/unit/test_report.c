@@ -231,8 +231,11 @@ END_TEST
 START_TEST(without_gnuplot_the_page_is_written_and_says_what_it_lacks) {
     const Place place = new_place();
     Results *results = sample();
-    setenv("PATH", "/nowhere", 1); // each test is a process of its own
+    char path[4096];
+    snprintf(path, sizeof path, "%s", getenv("PATH"));
+    setenv("PATH", "/nowhere", 1);
     ck_assert_int_eq(report_write(results, place.directory), IO_FAILED);
+    setenv("PATH", path, 1);
     ck_assert_ptr_nonnull(strstr(status_sentence(), "gnuplot does not start"));
     Text page = read_page(&place);
     ck_assert_ptr_nonnull(strstr(page.bytes, "No figure: gnuplot does not start"));
