@@ -5,6 +5,7 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdint.h>
 
 static size_t cell_count(const int64_t number[3]) {
     return (size_t)number[0] * (size_t)number[1] * (size_t)number[2];
@@ -23,7 +24,7 @@ static Status allocate(NearPairs *pairs) {
     TRY(NEW_ARRAY(pairs->first, cell_count(pairs->number) + 1));
     TRY(NEW_ARRAY(pairs->particle, pairs->count));
     for (int a = 0; a < 3; a++) TRY(NEW_ARRAY(pairs->position[a], pairs->count));
-    TRY(NEW_ARRAY(pairs->square, pairs->count));
+    TRY(NEW_ARRAY(pairs->distance, pairs->count));
     TRY(NEW_ARRAY(pairs->partner, pairs->count));
     return OK;
 }
@@ -32,6 +33,7 @@ Status near_pairs_create(NearPairs **out, const Box *box, size_t count, double r
     NearPairs *pairs = NULL;
     TRY(NEW(pairs));
     pairs->box = *box;
+    pairs->range = range;
     pairs->count = count;
     choose_cells(pairs->number, box, count, range);
     const Status status = allocate(pairs);
@@ -48,7 +50,7 @@ void near_pairs_free(NearPairs *pairs) {
     memory_free(pairs->first);
     memory_free(pairs->particle);
     for (int a = 0; a < 3; a++) memory_free(pairs->position[a]);
-    memory_free(pairs->square);
+    memory_free(pairs->distance);
     memory_free(pairs->partner);
     memory_free(pairs);
 }
@@ -91,6 +93,7 @@ void near_pairs_sort(NearPairs *pairs, const State *state) {
     }
     for (size_t c = cells; c > 0; c--) pairs->first[c] = pairs->first[c - 1];
     pairs->first[0] = 0;
+    pairs->cell = SIZE_MAX;
 }
 
 // The nearest integer, as rint, but inlined on any processor: adding 1.5 * 2^52 leaves no room for
@@ -100,55 +103,79 @@ static inline double nearest_integer(double x) {
     return (x + NO_FRACTION) - NO_FRACTION;
 }
 
-static size_t append_distances(NearPairs *pairs, size_t slot, size_t begin, size_t end,
-                               size_t found) {
+// Squared distances from the particle in `slot` to those in slots [begin, end).
+static void squares_to(const NearPairs *pairs, size_t slot, size_t begin, size_t end,
+                       double *square) {
     const double *edge = pairs->box.edge;
     const double *x = pairs->position[0], *y = pairs->position[1], *z = pairs->position[2];
     const double inverse[3] = {1 / edge[0], 1 / edge[1], 1 / edge[2]};
-    double *square = pairs->square + found;
+    const double x0 = x[slot], y0 = y[slot], z0 = z[slot];
     for (size_t k = begin; k < end; k++) {
-        double dx = x[k] - x[slot], dy = y[k] - y[slot], dz = z[k] - z[slot];
+        double dx = x[k] - x0, dy = y[k] - y0, dz = z[k] - z0;
         dx -= edge[0] * nearest_integer(dx * inverse[0]);
         dy -= edge[1] * nearest_integer(dy * inverse[1]);
         dz -= edge[2] * nearest_integer(dz * inverse[2]);
-        *square++ = dx * dx + dy * dy + dz * dz;
+        square[k - begin] = dx * dx + dy * dy + dz * dz;
     }
-    for (size_t k = begin; k < end; k++) pairs->partner[found++] = pairs->particle[k];
-    return found;
 }
 
-// The distinct cells at and around the cell `at`, periodically: at most 27.
-static size_t cells_around(const NearPairs *pairs, const int64_t at[3], size_t around[27]) {
-    size_t count = 0;
-    for (int64_t step = 0; step < 27; step++) {
-        const int64_t offset[3] = {step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1};
-        int64_t near[3];
-        for (int a = 0; a < 3; a++) {
-            near[a] = (at[a] + offset[a] + pairs->number[a]) % pairs->number[a];
-        }
-        const size_t cell = cell_at(pairs, near);
-        size_t known = 0;
-        while (known < count && around[known] != cell) known++;
-        if (known == count) around[count++] = cell;
+// Appends those within the range to the row. Always written and sometimes kept: no branch that
+// cannot be foretold.
+static size_t append_near(NearPairs *pairs, size_t slot, size_t begin, size_t end, size_t found) {
+    const double range_squared = pairs->range * pairs->range;
+    double *square = pairs->distance + found;
+    size_t *partner = pairs->partner + found;
+    squares_to(pairs, slot, begin, end, square);
+    size_t kept = 0;
+    for (size_t k = begin; k < end; k++) {
+        const double r2 = square[k - begin];
+        square[kept] = r2;
+        partner[kept] = pairs->particle[k];
+        kept += r2 < range_squared;
     }
-    return count;
+    return found + kept;
+}
+
+// Steps to the distinct neighbours along an axis: one, two or three cells.
+static int64_t first_step(int64_t number) {
+    return number >= 3 ? -1 : 0;
+}
+static int64_t last_step(int64_t number) {
+    return number >= 2 ? 1 : 0;
+}
+
+static int64_t wrapped(int64_t place, int64_t number) {
+    return place < 0 ? place + number : place >= number ? place - number : place;
+}
+
+// The distinct cells around `cell`, periodically, that come after it: each pair of cells once.
+static void look_around(NearPairs *pairs, size_t cell) {
+    const int64_t *n = pairs->number, index = (int64_t)cell;
+    const int64_t at[3] = {index % n[0], index / n[0] % n[1], index / (n[0] * n[1])};
+    pairs->cell = cell;
+    pairs->around_count = 0;
+    for (int64_t z = first_step(n[2]); z <= last_step(n[2]); z++) {
+        for (int64_t y = first_step(n[1]); y <= last_step(n[1]); y++) {
+            for (int64_t x = first_step(n[0]); x <= last_step(n[0]); x++) {
+                const int64_t near[3] = {wrapped(at[0] + x, n[0]), wrapped(at[1] + y, n[1]),
+                                         wrapped(at[2] + z, n[2])};
+                const size_t other = cell_at(pairs, near);
+                if (other > cell) pairs->around[pairs->around_count++] = other;
+            }
+        }
+    }
 }
 
 size_t near_pairs_row(NearPairs *pairs, size_t slot) {
-    const double r[3] = {pairs->position[0][slot], pairs->position[1][slot],
-                         pairs->position[2][slot]};
-    const size_t own = cell_of(pairs, r);
-    const size_t row = own / (size_t)pairs->number[0];
-    const int64_t at[3] = {(int64_t)(own % (size_t)pairs->number[0]),
-                           (int64_t)(row % (size_t)pairs->number[1]),
-                           (int64_t)(row / (size_t)pairs->number[1])};
-    size_t around[27];
-    const size_t cells = cells_around(pairs, at, around);
-    size_t found = append_distances(pairs, slot, slot + 1, pairs->first[own + 1], 0);
-    for (size_t c = 0; c < cells; c++) {
-        if (around[c] <= own) continue;
-        found = append_distances(pairs, slot, pairs->first[around[c]], pairs->first[around[c] + 1],
-                                 found);
+    size_t cell = pairs->cell;
+    if (cell == SIZE_MAX) cell = 0;
+    while (slot >= pairs->first[cell + 1]) cell++;
+    if (cell != pairs->cell) look_around(pairs, cell);
+    size_t found = append_near(pairs, slot, slot + 1, pairs->first[cell + 1], 0);
+    for (size_t k = 0; k < pairs->around_count; k++) {
+        const size_t other = pairs->around[k];
+        found = append_near(pairs, slot, pairs->first[other], pairs->first[other + 1], found);
     }
+    for (size_t k = 0; k < found; k++) pairs->distance[k] = sqrt(pairs->distance[k]);
     return found;
 }

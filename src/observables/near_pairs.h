@@ -7,13 +7,16 @@
 
 typedef struct NearPairs {
     Box box;
-    size_t count;        // particles
-    int64_t number[3];   // cells along each axis; where fewer than three fit, one or two suffice
-    size_t *first;       // [cells + 1], slot where each cell begins
-    size_t *particle;    // [count], by slot
-    double *position[3]; // [3][count], by slot
-    double *square;      // [count], squared distances of the current row
-    size_t *partner;     // [count], its particles
+    double range;
+    size_t count;                    // particles
+    int64_t number[3];               // cells along each axis
+    size_t *first;                   // [cells + 1], slot where each cell begins
+    size_t *particle;                // [count], by slot
+    double *position[3];             // [3][count], by slot
+    size_t cell;                     // of the current row
+    size_t around_count, around[27]; // the cells after it where partners may be
+    double *distance;                // [count], of the partners in the current row
+    size_t *partner;                 // [count], the particles that they are
 } NearPairs;
 
 // `range` at most half of the shortest edge.
@@ -23,6 +26,6 @@ size_t near_pairs_memory(const System *system, double range); // bytes
 
 void near_pairs_sort(NearPairs *pairs, const State *state);
 
-// The particle in `slot` and those after it that may be within the range: partner[k] at squared
-// distance square[k], nearest image, for k below the value returned.
+// The partners of the particle in `slot` that stand after it: partner[k] at distance[k] < range,
+// nearest image, for k below the value returned. Slots are to be asked for in ascending order.
 size_t near_pairs_row(NearPairs *pairs, size_t slot);

@@ -3,7 +3,8 @@
 // of the same N (pairs of different particles are counted, so that an ideal gas gives 1). Close to
 // contact the same is histogrammed finely in the scaled distance r/d_ij, d_ij = (d_i + d_j)/2,
 // where the pairs of a polydisperse species meet at 1: its value at contact gives the pressure by
-// the virial theorem, independently of the collisions (Weysser, thesis, eq. 2.6 ff.),
+// the virial theorem, independently of the collisions (Hansen & McDonald, Theory of Simple Liquids,
+// ch. 2),
 //   P V/(N kT) = 1 + sum over pairs ab of w_ab g_ab(1),
 //   w_ab = Omega/(dim N V) * sum over the pairs i in a, j in b of d_ij^dim, Omega = 2 pi or 4 pi.
 #include "base/constants.h"
@@ -17,7 +18,7 @@
 
 typedef struct PairSettings {
     double last, spacing, contact_last, contact_spacing;
-    int64_t looks;
+    int64_t looks, contact_looks;
 } PairSettings;
 
 static const Option rows[] = {
@@ -55,23 +56,36 @@ static const Option rows[] = {
     {.name = "looks",
      .type = OPTION_INTEGER,
      .offset = offsetof(PairSettings, looks),
+     .fallback = 100,
+     .least = 1,
+     .most = 10000000,
+     .unit = "",
+     .about = "Configurations looked at for g(r), evenly over the stage: at most this many."},
+    {.name = "contact.looks",
+     .type = OPTION_INTEGER,
+     .offset = offsetof(PairSettings, contact_looks),
      .fallback = 500,
      .least = 1,
      .most = 10000000,
      .unit = "",
-     .about = "Configurations looked at, evenly over the stage: at most this many."},
+     .about = "Configurations looked at near contact, which costs less and needs more of them."},
 };
+
+// Pairs of each two species, counted in bins of distance or of distance over contact distance.
+typedef struct Histogram {
+    NearPairs *pairs;
+    int64_t period; // ticks between looks
+    double spacing;
+    size_t bins;
+    uint64_t looks;
+    uint64_t *counts; // [pair of species][bins]
+} Histogram;
 
 typedef struct PairDistribution {
     Observer observer;
-    double last, spacing, contact_spacing;
-    double range; // within which pairs are looked for
-    int64_t period;
-    size_t bins, contact_bins, species_count;
-    uint64_t looks;
-    uint64_t *counts;         // [pair][bins]
-    uint64_t *contact_counts; // [pair][contact_bins]
-    NearPairs *pairs;
+    size_t species_count;
+    Histogram far;  // over r, in d
+    Histogram near; // over r/d_ij - 1
 } PairDistribution;
 
 static const double USUAL_RANGE = 5; // d: where g(r) of a fluid is close to 1
@@ -113,44 +127,49 @@ static size_t bins_for(double length, double spacing) {
 }
 
 // A pair of the widest particles has to be found as far out as the contact histogram goes.
-static double search_range(const PairDistribution *self, const State *state) {
+static double contact_range(const State *state, const Histogram *near) {
     double widest = 0, half = state->box.edge[0] / 2;
     for (size_t i = 0; i < state->count; i++) widest = fmax(widest, state->diameter[i]);
     for (int a = 1; a < state->box.dimension; a++) half = fmin(half, state->box.edge[a] / 2);
-    const double contact = widest * (1 + (double)self->contact_bins * self->contact_spacing);
-    return fmin(half, fmax(self->last, contact));
+    return fmin(half, widest * (1 + (double)near->bins * near->spacing));
 }
 
-static Status allocate(PairDistribution *self, const State *state) {
-    const size_t pairs = pair_count(self->species_count);
-    TRY(NEW_ARRAY(self->counts, pairs * self->bins));
-    TRY(NEW_ARRAY(self->contact_counts, pairs * self->contact_bins));
-    return near_pairs_create(&self->pairs, &state->box, state->count, self->range);
+static Status make_histogram(Histogram *histogram, const State *state, double range) {
+    TRY(NEW_ARRAY(histogram->counts, pair_count(state->system.species_count) * histogram->bins));
+    return near_pairs_create(&histogram->pairs, &state->box, state->count, range);
+}
+
+static void free_histogram(Histogram *histogram) {
+    memory_free(histogram->counts);
+    near_pairs_free(histogram->pairs);
 }
 
 static void discard(Observer *observer) {
     PairDistribution *self = (PairDistribution *)observer;
-    memory_free(self->counts);
-    memory_free(self->contact_counts);
-    near_pairs_free(self->pairs);
+    free_histogram(&self->far);
+    free_histogram(&self->near);
     memory_free(self);
 }
 
 static Status create(Observer **out, const Settings *settings_, const State *state,
                      const Clock *clock) {
     const PairSettings *settings = (const PairSettings *)settings_->bytes;
+    const double last = range_for(settings, &state->box);
     PairDistribution *self = NULL;
     TRY(NEW(self));
     self->observer = (Observer){.kind = &observable_pair_distribution, .clock = *clock};
-    self->last = range_for(settings, &state->box);
-    self->spacing = settings->spacing;
-    self->contact_spacing = settings->contact_spacing;
-    self->bins = bins_for(self->last, self->spacing);
-    self->contact_bins = bins_for(settings->contact_last - 1, settings->contact_spacing);
-    self->range = search_range(self, state);
     self->species_count = state->system.species_count;
-    self->period = looks_period(clock, settings->looks);
-    const Status status = allocate(self, state);
+    self->far = (Histogram){.period = looks_period(clock, settings->looks),
+                            .spacing = settings->spacing,
+                            .bins = bins_for(last, settings->spacing)};
+    self->near =
+        (Histogram){.period = looks_period(clock, settings->contact_looks),
+                    .spacing = settings->contact_spacing,
+                    .bins = bins_for(settings->contact_last - 1, settings->contact_spacing)};
+    Status status = make_histogram(&self->far, state, (double)self->far.bins * self->far.spacing);
+    if (status == OK) {
+        status = make_histogram(&self->near, state, contact_range(state, &self->near));
+    }
     if (status != OK) {
         discard(&self->observer);
         return status;
@@ -160,34 +179,41 @@ static Status create(Observer **out, const Settings *settings_, const State *sta
 }
 
 static int64_t next(const Observer *observer, int64_t after) {
-    return looks_next(&observer->clock, ((const PairDistribution *)observer)->period, after);
+    const PairDistribution *self = (const PairDistribution *)observer;
+    const int64_t far = looks_next(&observer->clock, self->far.period, after);
+    const int64_t near = looks_next(&observer->clock, self->near.period, after);
+    return far < near ? far : near;
 }
 
-static void count_pair(PairDistribution *self, const State *state, size_t i, size_t j, double r) {
-    const size_t pair = pair_index(state->species_of[i], state->species_of[j], self->species_count);
-    const double bin = r / self->spacing;
-    if (bin < (double)self->bins) self->counts[pair * self->bins + (size_t)bin]++;
-    const double contact = (state->diameter[i] + state->diameter[j]) / 2;
-    const double gap = fmax((r / contact - 1) / self->contact_spacing, 0);
-    if (gap < (double)self->contact_bins) {
-        self->contact_counts[pair * self->contact_bins + (size_t)gap]++;
+// Counts all pairs in the range, by distance or, `scaled`, by the gap over the contact distance.
+static inline __attribute__((always_inline)) void
+count_pairs(Histogram *histogram, const State *state, size_t species_count, const bool scaled) {
+    NearPairs *pairs = histogram->pairs;
+    const double per_spacing = 1 / histogram->spacing, bins = (double)histogram->bins;
+    near_pairs_sort(pairs, state);
+    for (size_t slot = 0; slot < state->count; slot++) {
+        const size_t found = near_pairs_row(pairs, slot), i = pairs->particle[slot];
+        uint64_t *row[SPECIES_MOST]; // where the pairs of i with each species are counted
+        for (size_t b = 0; b < species_count; b++) {
+            const size_t pair = pair_index(state->species_of[i], b, species_count);
+            row[b] = histogram->counts + pair * histogram->bins;
+        }
+        for (size_t k = 0; k < found; k++) {
+            const size_t j = pairs->partner[k];
+            const double contact = (state->diameter[i] + state->diameter[j]) / 2;
+            const double r = pairs->distance[k];
+            const double bin = (scaled ? fmax(r / contact - 1, 0) : r) * per_spacing;
+            if (bin < bins) row[state->species_of[j]][(size_t)bin]++;
+        }
     }
+    histogram->looks++;
 }
 
 static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
-    (void)tick;
     (void)tally;
     PairDistribution *self = (PairDistribution *)observer;
-    near_pairs_sort(self->pairs, state);
-    for (size_t slot = 0; slot < state->count; slot++) {
-        const size_t candidates = near_pairs_row(self->pairs, slot);
-        const size_t i = self->pairs->particle[slot];
-        for (size_t k = 0; k < candidates; k++) {
-            if (self->pairs->square[k] >= self->range * self->range) continue;
-            count_pair(self, state, i, self->pairs->partner[k], sqrt(self->pairs->square[k]));
-        }
-    }
-    self->looks++;
+    if (tick % self->far.period == 0) count_pairs(&self->far, state, self->species_count, false);
+    if (tick % self->near.period == 0) count_pairs(&self->near, state, self->species_count, true);
     return OK;
 }
 
@@ -197,9 +223,10 @@ static void archive(Observer *observer, Archive *archive) {
     PairDistribution *self = (PairDistribution *)observer;
     const size_t pairs = pair_count(self->species_count);
     archive_tag(archive, PAIRS_TAG);
-    archive_u64(archive, &self->looks, 1);
-    archive_u64(archive, self->counts, pairs * self->bins);
-    archive_u64(archive, self->contact_counts, pairs * self->contact_bins);
+    archive_u64(archive, &self->far.looks, 1);
+    archive_u64(archive, self->far.counts, pairs * self->far.bins);
+    archive_u64(archive, &self->near.looks, 1);
+    archive_u64(archive, self->near.counts, pairs * self->near.bins);
 }
 
 // Volume of the ball of this radius.
@@ -237,62 +264,54 @@ static PairSums sums_over_pairs(const State *state, size_t a, size_t b) {
                       .contact = share * (contact - itself)};
 }
 
-static Status put_distribution(const PairDistribution *self, const State *state,
-                               const Labels *labels, double *values, double *centres,
-                               Results *results, size_t replica) {
-    const double volume = box_volume(&state->box);
-    size_t pair = 0;
+// Counts over those of an ideal gas: values[pair][bin] from the volume of each shell (for a contact
+// distance of 1 if `scaled`) and the sum over pairs of what multiplies it.
+static void fill(const PairDistribution *self, const Histogram *histogram, const State *state,
+                 bool scaled, double *values, double *centres) {
+    const double spacing = histogram->spacing, first = scaled ? 1 : 0;
+    const int dimension = state->box.dimension;
+    size_t at = 0;
     for (size_t a = 0; a < self->species_count; a++) {
-        for (size_t b = a; b < self->species_count; b++, pair++) {
-            const double number = sums_over_pairs(state, a, b).number;
-            for (size_t k = 0; k < self->bins; k++) {
-                const double shell = ball(state->box.dimension, (double)(k + 1) * self->spacing) -
-                                     ball(state->box.dimension, (double)k * self->spacing);
-                values[pair * self->bins + k] = (double)self->counts[pair * self->bins + k] /
-                                                ((double)self->looks * number * shell / volume);
+        for (size_t b = a; b < self->species_count; b++) {
+            const PairSums sums = sums_over_pairs(state, a, b);
+            const double pairs = (scaled ? sums.contact : sums.number) / box_volume(&state->box);
+            for (size_t k = 0; k < histogram->bins; k++, at++) {
+                const double shell = ball(dimension, first + (double)(k + 1) * spacing) -
+                                     ball(dimension, first + (double)k * spacing);
+                values[at] =
+                    (double)histogram->counts[at] / ((double)histogram->looks * pairs * shell);
             }
         }
     }
-    for (size_t k = 0; k < self->bins; k++) centres[k] = ((double)k + 0.5) * self->spacing;
+    for (size_t k = 0; k < histogram->bins; k++) {
+        centres[k] = first + ((double)k + 0.5) * spacing;
+    }
+}
+
+static Status put_distribution(const PairDistribution *self, const State *state,
+                               const Labels *labels, double *values, double *centres,
+                               Results *results, size_t replica) {
+    fill(self, &self->far, state, false, values, centres);
     const ResultSeries shape = {
         .unit = "",
         .about = "Partial pair distribution g_ab(r), relative to an ideal gas of as many pairs.",
         .axes = 2,
         .axis = {{.name = "pair", .unit = "", .count = labels->count, .labels = labels->names},
-                 {.name = "distance", .unit = "d", .count = self->bins, .values = centres}}};
+                 {.name = "distance", .unit = "d", .count = self->far.bins, .values = centres}}};
     return observer_put_series(&self->observer, "pair_distribution", &shape, results, replica,
                                values);
 }
 
 static Status put_contact(const PairDistribution *self, const State *state, const Labels *labels,
                           double *values, double *centres, Results *results, size_t replica) {
-    const double volume = box_volume(&state->box);
-    const int dimension = state->box.dimension;
-    size_t pair = 0;
-    for (size_t a = 0; a < self->species_count; a++) {
-        for (size_t b = a; b < self->species_count; b++, pair++) {
-            const double contact = sums_over_pairs(state, a, b).contact;
-            for (size_t k = 0; k < self->contact_bins; k++) {
-                const size_t at = pair * self->contact_bins + k;
-                const double shell = ball(dimension, 1 + (double)(k + 1) * self->contact_spacing) -
-                                     ball(dimension, 1 + (double)k * self->contact_spacing);
-                values[at] = (double)self->contact_counts[at] /
-                             ((double)self->looks * contact * shell / volume);
-            }
-        }
-    }
-    for (size_t k = 0; k < self->contact_bins; k++) {
-        centres[k] = 1 + ((double)k + 0.5) * self->contact_spacing;
-    }
+    fill(self, &self->near, state, true, values, centres);
     const ResultSeries shape = {
         .unit = "",
         .about = "Partial pair distribution against distance over contact distance, r/d_ij.",
         .axes = 2,
-        .axis = {{.name = "pair", .unit = "", .count = labels->count, .labels = labels->names},
-                 {.name = "scaled_distance",
-                  .unit = "",
-                  .count = self->contact_bins,
-                  .values = centres}}};
+        .axis = {
+            {.name = "pair", .unit = "", .count = labels->count, .labels = labels->names},
+            {.name = "scaled_distance", .unit = "", .count = self->near.bins, .values = centres}}};
     return observer_put_series(&self->observer, "contact_distribution", &shape, results, replica,
                                values);
 }
@@ -321,7 +340,7 @@ static Status put_weights(const PairDistribution *self, const State *state, cons
 static Status write(const Observer *observer, const State *state, Results *results,
                     size_t replica) {
     const PairDistribution *self = (const PairDistribution *)observer;
-    const size_t bins = self->bins > self->contact_bins ? self->bins : self->contact_bins;
+    const size_t bins = self->far.bins > self->near.bins ? self->far.bins : self->near.bins;
     Labels labels;
     labels_of_pairs(&labels, &state->system, NULL);
     double *values = NULL, *centres = NULL;
@@ -345,7 +364,7 @@ static size_t memory(const Settings *settings_, const System *system, const Cloc
     const size_t bins = bins_for(range, settings->spacing) +
                         bins_for(settings->contact_last - 1, settings->contact_spacing);
     return sizeof(PairDistribution) + pair_count(system->species_count) * bins * sizeof(uint64_t) +
-           near_pairs_memory(system, range);
+           2 * near_pairs_memory(system, range);
 }
 
 const ObservableKind observable_pair_distribution = {
