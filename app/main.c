@@ -2,6 +2,8 @@
 // The program: finds the command, reads its flags by its table, runs it, tells what went wrong.
 #include "command.h"
 
+#include "manual.h"
+
 #include "base/nearest.h"
 
 #include <getopt.h>
@@ -178,7 +180,8 @@ static Status run_program(int argc, char **argv) {
     }
     const char *name = argv[1];
     if (strcmp(name, "help") == 0 || strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0) {
-        print_summary(stdout);
+        const bool manual = argc > 2 && strcmp(argv[2], "--man") == 0;
+        manual ? manual_write(stdout) : print_summary(stdout);
         return OK;
     }
     if (strcmp(name, "--version") == 0) name = "version";
