@@ -56,6 +56,26 @@ static bool has_ratio(const Figure *figure) {
     return figure->line && figure->kind->ratio;
 }
 
+static bool is_sum(const Figure *figure, size_t curve) { // over species
+    const char *title = figure->curve[curve].title;
+    return strcmp(title, "all") == 0 || strcmp(title, "total") == 0;
+}
+
+// Black for sums, a colour of its own for every other curve.
+static size_t look_of(const Figure *figure, size_t curve) {
+    static const size_t BLACK = 7; // in the palette, from 1
+    return is_sum(figure, curve) ? BLACK : curve + 1;
+}
+
+static void put_looks(Text *script, const Figure *figure) {
+    for (size_t c = 0; c < figure->curve_count; c++) {
+        const size_t look = look_of(figure, c);
+        text_add(script,
+                 "set linetype %zu linecolor rgb '%s' linewidth 1.6 pointtype %d pointsize 0.6\n",
+                 look, PALETTE[look - 1], MARKS[look - 1]);
+    }
+}
+
 static void put_head(Text *script, const Figure *figure) {
     text_add(
         script,
@@ -70,12 +90,7 @@ static void put_head(Text *script, const Figure *figure) {
         "set style fill transparent solid 0.25 noborder\n",
         figure->name, figure->name, figure->name, has_ratio(figure) ? 680 : 460, figure->name,
         figure->name, figure->name);
-    for (size_t i = 0; i < PALETTE_SIZE; i++) {
-        text_add(script,
-                 "set linetype %zu linecolor rgb '%s' linewidth 1.6 pointtype %d "
-                 "pointsize 0.6\n",
-                 i + 1, PALETTE[i], MARKS[i]);
-    }
+    put_looks(script, figure);
     const char *key = figure->kind && figure->kind->key ? figure->kind->key : "above";
     text_add(script, "set key %s noenhanced samplen 2 spacing 1.2\n", key);
 }
@@ -98,17 +113,6 @@ static void put_axes(Text *script, const Figure *figure) {
     }
     put_x_label(script, figure);
     put_y_label(script, figure);
-}
-
-static bool is_sum(const Figure *figure, size_t curve) { // over species
-    const char *title = figure->curve[curve].title;
-    return strcmp(title, "all") == 0 || strcmp(title, "total") == 0;
-}
-
-// Black for sums, a colour of its own for every other curve.
-static size_t look_of(const Figure *figure, size_t curve) {
-    static const size_t BLACK = 7;
-    return is_sum(figure, curve) ? BLACK : curve + 1;
 }
 
 // Marks with bars; where there are too many points for them, a line in a band. A sum among marks is

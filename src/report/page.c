@@ -24,7 +24,8 @@ static const char STYLE[] =
     "td{border-bottom:1px solid #e4e8ec;padding:.25rem .6rem;vertical-align:top}\n"
     "td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}\n"
     "td.a{color:#57606a;font-size:.87rem}tr.stage th{border:0;padding-top:.9rem}\n"
-    "table.facts td:first-child{width:13rem}td{overflow-wrap:anywhere}\n"
+    "td:first-child,td.u{white-space:nowrap}table.facts td:first-child{width:13rem}"
+    ".facts td{overflow-wrap:anywhere}\n"
     "td.ok{color:#006b4e;font-weight:600}td.broken{color:#c62828;font-weight:700}\n"
     ".figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(480px,1fr));gap:1.6rem}\n"
     "figure{margin:0;break-inside:avoid}figure svg{width:100%;height:auto;display:block}\n"
@@ -141,7 +142,7 @@ static void put_scalar(Text *page, const Results *results, const ResultScalar *s
     html_name(page, scalar->quantity);
     text_put(page, "</td><td class=\"n\">");
     put_estimate(page, estimate);
-    text_put(page, "</td><td>");
+    text_put(page, "</td><td class=\"u\">");
     html_unit(page, scalar->unit);
     text_put(page, "</td>");
     put_reference(page, results, scalar);
