@@ -187,11 +187,8 @@ static Status read_reals(const Option *row, const Node *node, OptionReals *reals
     for (; element; element = node->kind == NODE_LIST ? element->next : NULL) {
         if (reals->count == OPTION_LIST_SIZE)
             return tree_fail(element, "%s has more than %d numbers", row->name, OPTION_LIST_SIZE);
-        const Option of_element = {.name = row->name,
-                                   .type = OPTION_REAL,
-                                   .least = row->least,
-                                   .most = row->most,
-                                   .unit = row->unit};
+        Option of_element = *row;
+        of_element.type = OPTION_REAL;
         TRY(read_real(&of_element, element, &reals->values[reals->count]));
         reals->count++;
     }
@@ -204,7 +201,9 @@ static Status read_choices(const Option *row, const Node *node, uint64_t *set) {
     const Node *element = node->kind == NODE_LIST ? node->first : node;
     for (; element; element = node->kind == NODE_LIST ? element->next : NULL) {
         int64_t choice = 0;
-        TRY(read_choice(row, element, &choice));
+        Option of_element = *row;
+        of_element.type = OPTION_CHOICE;
+        TRY(read_choice(&of_element, element, &choice));
         *set |= UINT64_C(1) << choice;
     }
     return OK;

@@ -291,10 +291,17 @@ static Status too_long(const char *name) {
                        name, SIZE_MOST);
 }
 
+// Some editors begin a file with U+FEFF; it says nothing in UTF-8.
+static size_t mark_length(const char *text, size_t length) {
+    static const char mark[] = {'\xEF', '\xBB', '\xBF'};
+    return length >= sizeof mark && memcmp(text, mark, sizeof mark) == 0 ? sizeof mark : 0;
+}
+
 Status tree_read(Node **out, const char *name, const char *text, size_t length) {
     if (length > SIZE_MOST) return too_long(name);
+    const size_t mark = mark_length(text, length);
     TreeReader reader = {.name = name};
-    TRY(read_with(&reader, text, length, out));
+    TRY(read_with(&reader, text + mark, length - mark, out));
     if ((*out)->kind == NODE_MAP) return OK;
     const Status status =
         tree_fail(*out, "a run file is a map of sections: system, dynamics, protocol, ...");

@@ -4,6 +4,7 @@
 #include "config/config.h"
 
 #include "base/memory.h"
+#include "config/options.h"
 #include "base/number.h"
 
 #include <check.h>
@@ -161,6 +162,108 @@ START_TEST(a_difference_is_told_key_by_key) {
 }
 END_TEST
 
+typedef struct AllTypes {
+    double real, duration;
+    int64_t integer, boolean, choice;
+    uint64_t choices;
+    char text[OPTION_TEXT_SIZE];
+    OptionReals reals;
+} AllTypes;
+
+static const char *const axes[] = {"x", "y", "xy", NULL};
+
+static const Option all_rows[] = {
+    {"real", OPTION_REAL, offsetof(AllTypes, real), 0.25, 0, 0, "d", "A number."},
+    {"below.duration", OPTION_DURATION, offsetof(AllTypes, duration), 5, 0, 1e6, "s", "A time."},
+    {"below.integer", OPTION_INTEGER, offsetof(AllTypes, integer), 3, 0, 0, "", "A count."},
+    {"boolean", OPTION_BOOLEAN, offsetof(AllTypes, boolean), 1, 0, 0, "", "Whether."},
+    {"choice", OPTION_CHOICE, offsetof(AllTypes, choice), 1, 0, 0, "", "Which.", axes},
+    {"choices", OPTION_CHOICES, offsetof(AllTypes, choices), 0, 0, 0, "", "Which of.", axes,
+     "[x, xy]"},
+    {"text", OPTION_TEXT, offsetof(AllTypes, text), 0, 0, 0, "", "A word.", NULL, "some words"},
+    {"reals", OPTION_REALS, offsetof(AllTypes, reals), 0, 0, 0, "", "Numbers.", NULL, "[1, 2.5]"},
+};
+static const OptionTable all_types = OPTION_TABLE(all_rows, AllTypes);
+
+static Status read_all(const char *text, AllTypes *values) {
+    const OptionTarget target = {&all_types, values};
+    const OptionMap options = {"all types", &target, 1, NULL};
+    Node *root = NULL;
+    Status status = tree_read(&root, "test", text, strlen(text));
+    if (status == OK) status = options_read(&options, root, true);
+    tree_free(root);
+    return status;
+}
+
+START_TEST(every_type_has_its_default) {
+    AllTypes values;
+    memset(&values, 0xFF, sizeof values);
+    ck_assert_int_eq(options_default(&all_types, &values), OK);
+    ck_assert(values.real == 0.25 && values.duration == 5 && values.integer == 3);
+    ck_assert(values.boolean == 1 && values.choice == 1 && values.choices == 5);
+    ck_assert_str_eq(values.text, "some words");
+    ck_assert(values.reals.count == 2 && values.reals.values[1] == 2.5);
+}
+END_TEST
+
+START_TEST(every_type_is_read) {
+    AllTypes values = {0};
+    ck_assert_int_eq(read_all("{real: -1e-3, below: {duration: 2 h, integer: -7}, boolean: false,"
+                              " choice: xy, choices: [y, x], text: '1', reals: 4}",
+                              &values),
+                     OK);
+    ck_assert(values.real == -0.001 && values.duration == 7200 && values.integer == -7);
+    ck_assert(values.boolean == 0 && values.choice == 2 && values.choices == 3);
+    ck_assert_str_eq(values.text, "1");
+    ck_assert(values.reals.count == 1 && values.reals.values[0] == 4);
+}
+END_TEST
+
+START_TEST(every_type_is_refused_with_what_was_expected) {
+    static const struct {
+        const char *text, *sentence;
+    } cases[] = {
+        {"boolean: 1", "test:1:1: error: boolean = 1 is not true or false"},
+        {"boolean: [true]", "test:1:1: error: boolean is a list; expected true or false"},
+        {"choice: z", "test:1:1: error: choice = z is unknown; did you mean x?"},
+        {"choices: {x: 1}", "test:1:1: error: choices is a map; expected a list of words from x, y,"
+                            " xy"},
+        {"choices: [x, diagonal]", "test:1:14: error: choices = diagonal is not one of x, y, xy"},
+        {"reals: {x: 1}", "test:1:1: error: reals is a map; expected a list of numbers"},
+        {"below: {duration: [1 s]}", "test:1:9: error: below.duration is a list; expected a "
+                                     "duration such as 600 s, 10 min or 2 h, from 0 to 1e6 s"},
+        {"below: {real: 1}", "test:1:9: error: unknown key 'real' in all types; expected duration, "
+                             "integer"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        AllTypes values = {0};
+        ck_assert_int_eq(read_all(cases[i].text, &values), BAD_DATA);
+        ck_assert_str_eq(status_sentence(), cases[i].sentence);
+    }
+}
+END_TEST
+
+START_TEST(every_type_reads_back_as_written) {
+    AllTypes values = {0}, back = {0};
+    ck_assert_int_eq(options_default(&all_types, &values), OK);
+    ck_assert_int_eq(options_default(&all_types, &back), OK);
+    values.boolean = 0;
+    values.choices = 6;
+    strcpy(values.text, "\"quoted\" \\ 1");
+    values.reals = (OptionReals){3, {0.1, -1e300, 3}};
+    for (size_t i = 0; i < all_types.count; i++) {
+        Text text = {0};
+        Node *node = NULL;
+        option_write(&all_rows[i], &values, &text);
+        ck_assert_int_eq(tree_read_value(&node, "test", text_words(&text)), OK);
+        ck_assert_int_eq(option_read(&all_rows[i], node, &back), OK);
+        tree_free(node);
+        text_free(&text);
+    }
+    ck_assert(memcmp(&values, &back, sizeof values) == 0);
+}
+END_TEST
+
 START_TEST(every_double_reads_back_from_its_shortest_number) {
     uint64_t bits = UINT64_C(0x9E3779B97F4A7C15); // any start: a walk through all exponents
     for (int i = 0; i < 20000; i++) {
@@ -255,6 +358,10 @@ int main(void) {
     tcase_add_test(cases, a_stage_overrides_some_keys_of_the_dynamics);
     tcase_add_test(cases, overrides_replace_and_add_values);
     tcase_add_test(cases, a_difference_is_told_key_by_key);
+    tcase_add_test(cases, every_type_has_its_default);
+    tcase_add_test(cases, every_type_is_read);
+    tcase_add_test(cases, every_type_is_refused_with_what_was_expected);
+    tcase_add_test(cases, every_type_reads_back_as_written);
     tcase_add_test(cases, every_double_reads_back_from_its_shortest_number);
     tcase_add_test(cases, numbers_are_written_as_people_write_them);
     tcase_add_test(cases, only_decimal_numbers_are_numbers);
