@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // perrin show: the results of a run as a table, as JSON or as CSV, on standard output.
 #include "command.h"
+#include "stored.h"
 
 #include "report/report.h"
-#include "store/store.h"
 
 #include <stdio.h>
 
@@ -29,20 +29,11 @@ static Status print_results(const Results *results, ShowFormat format, const cha
     return status;
 }
 
-static Status read_results(Results **out, const char *directory) {
-    Text path = {0};
-    text_add(&path, "%s/results.h5", directory);
-    Status status = text_status(&path);
-    if (status == OK) status = store_read_results(out, text_words(&path));
-    text_free(&path);
-    return status;
-}
-
 static Status show(const Arguments *arguments) {
     ShowFormat format;
     TRY(choose_format(&format, arguments));
     Results *results = NULL;
-    TRY(read_results(&results, arguments->operand[0]));
+    TRY(stored_results(&results, arguments->operand[0]));
     const char *quantity = arguments->operands > 1 ? arguments->operand[1] : NULL;
     const Status status = print_results(results, format, quantity);
     results_free(results);

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a run left in its directory.
+#pragma once
+
+#include "results/results.h"
+
+Status stored_results(Results **out, const char *directory); // of DIRECTORY/results.h5; yours
