@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Windows in a row: draw velocities, run the kernel, see whether the neighbour list still held,
+// and if it did not, go back to the last moment known to be right. The random numbers are
+// addressed, so what is done again is done exactly the same.
+#include "edbd/engine.h"
+
+#include "base/cpu.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+static const int64_t SNAPSHOT_WINDOWS = 8; // windows at most done again after a failed list
+static const double LIST_MARGIN = 2.5;     // rebuild this many thermal flights before the end
+static const double BOX_DIAMETERS = 2.2;   // shortest edge, in largest diameters
+static const double FLIGHT_MOST = 0.05;    // thermal flight in a window, in d
+static const int64_t PARTICLES_MOST = 1 << 28;
+
+static Status allocate(Engine *engine) {
+    const size_t count = engine->count, slots = count + 1;
+    TRY(NEW_ARRAY(engine->rows, slots * engine->row));
+    TRY(NEW_ARRAY(engine->spare_rows, slots * engine->row));
+    TRY(NEW_ARRAY(engine->id, slots + BLOCK));
+    TRY(NEW_ARRAY(engine->spare_id, slots + BLOCK));
+    TRY(NEW_ARRAY(engine->radius, slots));
+    TRY(NEW_ARRAY(engine->mass, slots));
+    TRY(NEW_ARRAY(engine->thermal, slots + BLOCK));
+    TRY(NEW_ARRAY(engine->stamp, slots));
+    for (int a = 0; a < engine->dimension; a++) {
+        TRY(NEW_ARRAY(engine->normals[a], slots + BLOCK));
+        TRY(NEW_ARRAY(engine->snapshot.image[a], count));
+    }
+    TRY(NEW_ARRAY(engine->snapshot.rows, slots * engine->row));
+    for (engine->buckets = 64; engine->buckets < count / 4;) engine->buckets *= 2;
+    TRY(NEW_ARRAY(engine->bucket, engine->buckets));
+    engine->event_capacity = (uint32_t)(count + 64);
+    TRY(NEW_ARRAY(engine->events, engine->event_capacity));
+    return list_create(engine);
+}
+
+static const EngineKernel *kernel_of(int dimension) {
+    static const EngineKernel *const kernels[2][CPU_PATHS] = {
+        {&engine_kernel_2d_portable, &engine_kernel_2d_avx2, &engine_kernel_2d_avx512},
+        {&engine_kernel_3d_portable, &engine_kernel_3d_avx2, &engine_kernel_3d_avx512},
+    };
+    return kernels[dimension - 2][cpu_path()];
+}
+
+static void take_in(Engine *engine) {
+    const State *state = engine->state;
+    for (size_t i = 0; i < engine->count; i++) {
+        double *row = engine->rows + engine->row * i;
+        engine->id[i] = (uint32_t)i;
+        for (int a = 0; a < engine->dimension; a++) {
+            row[a] = state->position[a][i];
+            row[engine->row / 2 + (size_t)a] = state->velocity[a][i];
+        }
+        engine->largest = fmax(engine->largest, state->diameter[i]);
+        engine->fastest = fmax(engine->fastest, 1 / sqrt(state->mass[i]));
+    }
+}
+
+static Status give_out(Engine *engine) {
+    State *state = engine->state;
+    double sum = 0;
+    for (size_t slot = 0; slot < engine->count; slot++) {
+        const double *row = engine->rows + engine->row * slot;
+        const uint32_t id = engine->id[slot];
+        for (int a = 0; a < engine->dimension; a++) {
+            state->position[a][id] = row[a];
+            state->velocity[a][id] = row[engine->row / 2 + (size_t)a];
+            sum += row[a] + row[engine->row / 2 + (size_t)a];
+        }
+    }
+    if (isfinite(sum)) return OK;
+    return status_fail(UNHEALTHY, "a position or velocity is no longer a number after step %lld",
+                       (long long)state->step);
+}
+
+Status engine_create(Engine **out, const EngineSettings *settings, State *state, RngKey key) {
+    Engine *engine = NULL;
+    TRY(NEW(engine));
+    *engine = (Engine){.settings = *settings,
+                       .state = state,
+                       .key = key,
+                       .dimension = state->box.dimension,
+                       .row = state->box.dimension == 2 ? ROW_2D : ROW_3D,
+                       .count = state->count,
+                       .scale = 1,
+                       .kernel = kernel_of(state->box.dimension)};
+    memcpy(engine->edge, state->box.edge, sizeof engine->edge);
+    Status status = allocate(engine);
+    if (status == OK) {
+        take_in(engine);
+        status = list_build(engine);
+    }
+    if (status != OK) {
+        engine_free(engine);
+        return status;
+    }
+    *out = engine;
+    return OK;
+}
+
+void engine_free(Engine *engine) {
+    if (!engine) return;
+    memory_free(engine->rows);
+    memory_free(engine->spare_rows);
+    memory_free(engine->id);
+    memory_free(engine->spare_id);
+    memory_free(engine->radius);
+    memory_free(engine->mass);
+    memory_free(engine->thermal);
+    memory_free(engine->stamp);
+    for (int a = 0; a < 3; a++) {
+        memory_free(engine->normals[a]);
+        memory_free(engine->snapshot.image[a]);
+    }
+    memory_free(engine->snapshot.rows);
+    memory_free(engine->bucket);
+    memory_free(engine->events);
+    list_free(engine);
+    memory_free(engine);
+}
+
+void engine_grow(Engine *engine, double scale, double rate) {
+    engine->scale = scale;
+    engine->growth = rate;
+}
+
+double engine_scale(const Engine *engine) { return engine->scale; }
+
+void engine_record(Engine *engine, CollisionLog *log) { engine->log = log; }
+
+// Velocities from a Gaussian of variance kT/m per direction (Weysser, thesis, eq. 2.7, corrected).
+static void redraw(Engine *engine) {
+    rng_normals(engine->key, engine->settings.stream, (uint64_t)engine->state->step, engine->id,
+                engine->count, engine->dimension, engine->normals);
+    for (int a = 0; a < engine->dimension; a++) {
+        double *velocity = engine->rows + engine->row / 2 + a;
+        for (size_t slot = 0; slot < engine->count; slot++) {
+            velocity[engine->row * slot] = engine->normals[a][slot] * engine->thermal[slot];
+        }
+    }
+}
+
+static void snapshot_take(Engine *engine) {
+    Snapshot *snapshot = &engine->snapshot;
+    memcpy(snapshot->rows, engine->rows, engine->count * engine->row * sizeof(double));
+    for (int a = 0; a < engine->dimension; a++) {
+        memcpy(snapshot->image[a], engine->state->image[a], engine->count * sizeof(int32_t));
+    }
+    snapshot->step = engine->state->step;
+    snapshot->window = engine->window;
+    snapshot->scale = engine->scale;
+    snapshot->tally = engine->tally;
+    snapshot->recorded = engine->log ? engine->log->count : 0;
+    snapshot->windows = 0;
+}
+
+// The order in memory is that of the snapshot: the list is never rebuilt without a new one.
+static void snapshot_restore(Engine *engine) {
+    const Snapshot *snapshot = &engine->snapshot;
+    const Tally *tally = &engine->tally;
+    const uint64_t rebuilds = tally->rebuilds, replays = tally->replays, stale = tally->stale;
+    memcpy(engine->rows, snapshot->rows, engine->count * engine->row * sizeof(double));
+    for (int a = 0; a < engine->dimension; a++) {
+        memcpy(engine->state->image[a], snapshot->image[a], engine->count * sizeof(int32_t));
+    }
+    engine->state->step = snapshot->step;
+    engine->window = snapshot->window;
+    engine->scale = snapshot->scale;
+    engine->tally = snapshot->tally;
+    engine->tally.rebuilds = rebuilds;
+    engine->tally.replays = replays + 1;
+    engine->tally.stale = stale;
+    if (engine->log) engine->log->count = snapshot->recorded;
+}
+
+// How far a particle may be from its anchor: half of what the growth has left of the skin.
+static double list_reach(const Engine *engine) {
+    return (engine->list.skin - engine->largest * (engine->scale - engine->list.scale)) / 2;
+}
+
+static Status renew_list(Engine *engine) {
+    TRY(list_build(engine));
+    snapshot_take(engine);
+    return OK;
+}
+
+static Status more_events(Engine *engine) {
+    Event *events = NULL;
+    const uint32_t capacity = 2 * engine->event_capacity;
+    TRY(NEW_ARRAY(events, capacity));
+    memory_free(engine->events);
+    engine->events = events;
+    engine->event_capacity = capacity;
+    engine->outgrown = 0;
+    return OK;
+}
+
+// Goes back, mends what failed, and lets the loop do it again. A rebuilt list alone might fail at
+// the same place: until well past it the list is rebuilt in every window.
+static Status replay(Engine *engine, bool list_failed) {
+    const bool fresh = engine->snapshot.windows == 1 && engine->list.age == 1;
+    snapshot_restore(engine);
+    if (engine->outgrown) TRY(more_events(engine));
+    if (fresh && list_failed) {
+        return status_fail(UNHEALTHY, "in step %lld a particle moves farther in a window of %g than "
+                                      "its neighbour list reaches (%g); use a shorter window",
+                           (long long)engine->state->step, engine->settings.window,
+                           list_reach(engine));
+    }
+    engine->careful = list_failed ? 2 * SNAPSHOT_WINDOWS : 0;
+    return renew_list(engine);
+}
+
+static void next_window(Engine *engine) {
+    engine->tally.windows++;
+    engine->list.age++;
+    engine->scale += engine->growth * engine->settings.window;
+    if (++engine->window < engine->settings.windows_per_step) return;
+    engine->window = 0;
+    engine->state->step++;
+}
+
+static Status one_window(Engine *engine) {
+    if (engine->window == 0 && engine->settings.redraw) redraw(engine);
+    if (engine->growth != 0 || engine->scale != 1) engine->kernel->run_growing(engine);
+    else engine->kernel->run_window(engine);
+    if (engine->hung) {
+        return status_fail(UNHEALTHY, "a particle collided more than 1000 times within one window "
+                                      "of %g in step %lld: the packing is jammed or overlaps",
+                           engine->settings.window, (long long)engine->state->step);
+    }
+    next_window(engine);
+    engine->snapshot.windows++;
+    const double reach = list_reach(engine);
+    const bool list_failed = !(engine->list.farthest2 <= reach * reach) || reach < 0;
+    if (list_failed || engine->outgrown) return replay(engine, list_failed);
+    const double left = reach - LIST_MARGIN * engine->fastest * engine->settings.window;
+    if (engine->careful > 0) engine->careful--;
+    if (engine->list.farthest2 > left * left || left < 0 || engine->careful > 0) return renew_list(engine);
+    if (engine->snapshot.windows == SNAPSHOT_WINDOWS) snapshot_take(engine);
+    return OK;
+}
+
+static int64_t windows_done(const Engine *engine) {
+    return engine->state->step * engine->settings.windows_per_step + engine->window;
+}
+
+Status engine_advance(Engine *engine, int64_t windows, Tally *tally) {
+    const int64_t goal = windows_done(engine) + windows;
+    engine->tally = *tally;
+    if (engine->scale != engine->list.scale) TRY(list_build(engine));
+    snapshot_take(engine);
+    while (windows_done(engine) < goal) TRY(one_window(engine));
+    *tally = engine->tally;
+    return give_out(engine);
+}
+
+Status engine_check(const System *system, double window) {
+    const Box box = system_box(system);
+    double largest = 0, lightest = system->species[0].mass;
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Species *species = &system->species[s];
+        const double spread = species->spread == SPREAD_NONE ? 0 : 3 * species->spread_width;
+        if (shape_dimension((ShapeKind)species->shape) != system->dimension) {
+            return status_fail(BAD_DATA, "species '%s': a %s lives in %d dimensions, the system has "
+                                         "%lld",
+                               species->name, shape_names[species->shape],
+                               shape_dimension((ShapeKind)species->shape),
+                               (long long)system->dimension);
+        }
+        largest = fmax(largest, species->diameter * (1 + spread));
+        lightest = fmin(lightest, species->mass);
+    }
+    for (int a = 0; a < box.dimension; a++) {
+        if (box.edge[a] >= BOX_DIAMETERS * largest) continue;
+        return status_fail(BAD_DATA, "the box is %.4g d long along %c, less than %g times the "
+                                     "largest diameter of %g d; take more particles",
+                           box.edge[a], "xyz"[a], BOX_DIAMETERS, largest);
+    }
+    if (system->particles > PARTICLES_MOST) {
+        return status_fail(BAD_DATA, "particles = %lld is more than the event-driven method's %lld",
+                           (long long)system->particles, (long long)PARTICLES_MOST);
+    }
+    if (window / sqrt(lightest) <= FLIGHT_MOST) return OK;
+    return status_fail(BAD_DATA, "particles of mass %g fly %.3g d in a window of %g, more than %g; "
+                                 "use windows of %.3g at most",
+                       lightest, window / sqrt(lightest), window, FLIGHT_MOST,
+                       FLIGHT_MOST * sqrt(lightest));
+}
+
+size_t engine_memory(const System *system) {
+    static const size_t neighbours[2] = {8, 24}; // of a particle, padded
+    const size_t three = system->dimension == 3, row = three ? ROW_3D : ROW_2D;
+    const size_t per_particle = 3 * row * sizeof(double) + 12 * sizeof(double) +
+                                neighbours[three] * 24 + sizeof(Event) + 48;
+    return (size_t)system->particles * per_particle + sizeof(Engine) + 8192;
+}

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The inside of the engine, for the files of this folder only.
+//
+// Particles lie in memory in the order of their cells; `id` tells who is where ("slot"). All that
+// depends on this order (lists, buckets, event numbers) is machinery: what comes out depends on
+// positions, velocities and ids alone.
+#pragma once
+
+#include "edbd/edbd.h"
+
+enum {
+    ROW_2D = 4, // x y vx vy
+    ROW_3D = 8, // x y z R vx vy vz m
+    ANCHOR = 4, // x y z 0
+    BLOCK = 8,  // lists are padded to whole blocks
+};
+static const uint32_t NO_EVENT = UINT32_MAX;
+
+// A predicted collision. It is void as soon as either partner has collided since: stamps count the
+// collisions of each particle in this window and only grow, so their sum tells.
+typedef struct Event {
+    double time;
+    uint32_t first, second; // slots
+    uint32_t stamps;
+    uint32_t next; // in its bucket
+} Event;
+
+// Pairs nearer than contact + skin when the list was made, seen both ways: a flat half list for
+// the prediction at the start of a window, and all neighbours of each particle for predictions
+// after a collision.
+typedef struct NeighbourList {
+    double skin;
+    double scale;         // of the diameters when it was made
+    double farthest2;     // square of the largest distance from an anchor since
+    int64_t age;          // windows since
+    double *anchor;       // [slots][ANCHOR]: where each was then
+    size_t pairs;         // padded to whole blocks with a pair that never meets
+    size_t pair_capacity;
+    uint32_t *first, *second; // [pairs]
+    double *pair_contact2;    // [pairs] square of the contact distance at scale 1
+    uint32_t *hits;           // [pairs] room for those that meet in a window
+    uint32_t *start;          // [slots + 1], multiples of BLOCK
+    size_t neighbour_capacity;
+    uint32_t *neighbour;      // [start[slots]]
+    double *contact2;         // [start[slots]]
+} NeighbourList;
+
+// What a window must not pass over: the state at the last moment known to be right.
+typedef struct Snapshot {
+    double *rows;
+    int32_t *image[3];
+    int64_t step, window;
+    double scale;
+    Tally tally;
+    size_t recorded; // collisions in the log
+    int64_t windows; // done since
+} Snapshot;
+
+typedef struct EngineKernel EngineKernel;
+
+struct Engine {
+    EngineSettings settings;
+    State *state;
+    RngKey key;
+    const EngineKernel *kernel;
+
+    int dimension;
+    size_t row;   // ROW_2D or ROW_3D
+    size_t count; // of particles; slot `count` holds one that nothing meets
+    double edge[3];
+    double scale, growth; // of the diameters: now, and its rate
+    int64_t window;       // windows done in this step
+
+    double *rows;         // [count + 1][row]
+    double *spare_rows;   // the same, for reordering
+    uint32_t *id;         // [count] of each slot
+    uint32_t *spare_id;
+    double *radius;       // [count]
+    double *mass;         // [count]
+    double *thermal;      // [count] 1/sqrt(mass)
+    double *normals[3];   // [count]
+    uint32_t *stamp;      // [count + 1] collisions of each in this window
+    double largest;       // diameter
+    double fastest;       // thermal velocity
+
+    NeighbourList list;
+    uint32_t *cell_of;    // [count]
+    uint32_t *cell_start; // [cells_most + 1]
+    size_t cells_most;
+
+    Event *events;        // [event_capacity]
+    uint32_t event_capacity, events_used, free_event;
+    uint32_t *bucket;     // [buckets] first event of each slice of the window
+    uint32_t buckets;     // a power of two
+
+    int64_t careful;      // windows still to be done with a new list each
+    int outgrown;         // the events did not fit
+    int hung;             // a particle collided more often than anything physical
+
+    Tally tally;
+    Snapshot snapshot;
+    CollisionLog *log;
+};
+
+// One kernel per instruction set, the same source compiled for each.
+struct EngineKernel {
+    void (*run_window)(Engine *engine);      // predict, collide, move, fold
+    void (*run_growing)(Engine *engine);     // the same with growing diameters
+};
+
+// Becomes: extern const EngineKernel engine_kernel_2d_portable, ...
+#define ENGINE_KERNELS(path)                                                                       \
+    extern const EngineKernel engine_kernel_2d_##path, engine_kernel_3d_##path;
+ENGINE_KERNELS(portable)
+ENGINE_KERNELS(avx2)
+ENGINE_KERNELS(avx512)
+#undef ENGINE_KERNELS
+
+Status list_create(Engine *engine);
+void list_free(Engine *engine);
+// Sorts the particles by cell and finds all pairs nearer than contact + skin.
+Status list_build(Engine *engine);

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One window of event-driven dynamics: predict all collisions in it, carry them out in order,
+// move to its end. Compiled once per instruction set; dimension and growth are folded constants.
+//
+// Every particle has a virtual origin X: its place at time s of the window is X + v s. A collision
+// at s that changes v by k changes X by -k s, so no particle needs a clock of its own.
+#pragma once
+
+#include "edbd/engine.h"
+#include "edbd/lanes.h"
+
+#include <string.h>
+
+static const uint32_t COLLISIONS_MOST = 1000; // of one particle in one window: it hangs
+static const double CONTACT_DEPTH = 1e-12;    // deeper overlaps at a collision are counted
+
+// The gap of a pair as time goes on: r^2 - contact^2 = c + 2 b t + a t^2.
+typedef struct Gap {
+    Lanes a, b, c;
+} Gap;
+
+// Diameters at time s of the window: scale(s) = scale + rate s.
+typedef struct Growth {
+    double scale, rate;
+} Growth;
+
+// From separations at virtual origins, at time s.
+KERNEL Gap gap_of(const int dimension, const int growing, const Engine *engine, Lanes r[3],
+                  const Lanes v[3], Lanes contact2, double s, Growth growth) {
+    Gap gap = {.c = -contact2};
+    if (growing) {
+        const double scale = growth.scale + growth.rate * s;
+        gap.c = -contact2 * lanes_all(scale * scale);
+        gap.b = -contact2 * lanes_all(scale * growth.rate);
+        gap.a = -contact2 * lanes_all(growth.rate * growth.rate);
+    }
+    Lanes r2 = {0}, rv = {0}, v2 = {0};
+    for (int a = 0; a < dimension; a++) {
+        r[a] = lanes_nearest(r[a], lanes_all(engine->edge[a]), lanes_all(engine->edge[a] / 2));
+        r[a] += v[a] * lanes_all(s);
+        r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
+        rv = a == 0 ? r[a] * v[a] : rv + r[a] * v[a];
+        v2 = a == 0 ? v[a] * v[a] : v2 + v[a] * v[a];
+    }
+    gap.c = r2 + gap.c;
+    gap.b = growing ? rv + gap.b : rv;
+    gap.a = growing ? v2 + gap.a : v2;
+    return gap;
+}
+
+// Pairs that meet within `left`: approaching, and either overlapping by then or having passed
+// through a real contact before. A pair that overlaps already and approaches meets now; one that
+// overlaps and recedes is left to do so. With growth a pair may also meet without approaching.
+KERNEL Where gap_closes(const int growing, Gap gap, double left) {
+    const Lanes zero = {0}, w = lanes_all(left);
+    const Lanes end = gap.b + gap.a * w;
+    const Where approaching = lanes_less(gap.b, zero);
+    const Where overlaps = lanes_less(gap.c + w * (gap.b + end), zero);
+    const Where turned = lanes_less(zero, end) & lanes_less(gap.a * gap.c, gap.b * gap.b);
+    if (!growing) return approaching & (overlaps | turned);
+    return (approaching | lanes_less(zero, gap.c)) & (overlaps | (turned & approaching));
+}
+
+// How long until a closing gap is closed; this form of the root does not cancel.
+KERNEL Lanes gap_time(Gap gap) {
+    const Lanes root = lanes_sqrt(lanes_positive(gap.b * gap.b - gap.a * gap.c));
+    return lanes_positive(gap.c / (root - gap.b));
+}
+
+KERNEL uint32_t *bucket_of(Engine *engine, double time) {
+    const double slice = time * (engine->buckets / engine->settings.window);
+    const uint32_t last = engine->buckets - 1;
+    return &engine->bucket[slice < last ? (uint32_t)slice : last];
+}
+
+KERNEL void event_put(Engine *engine, double time, uint32_t first, uint32_t second) {
+    uint32_t number = engine->free_event;
+    if (number != NO_EVENT) {
+        engine->free_event = engine->events[number].next;
+    } else if (engine->events_used < engine->event_capacity) {
+        number = engine->events_used++;
+    } else {
+        engine->outgrown = 1;
+        return;
+    }
+    uint32_t *bucket = bucket_of(engine, time);
+    engine->events[number] = (Event){.time = time,
+                                     .first = first,
+                                     .second = second,
+                                     .stamps = engine->stamp[first] + engine->stamp[second],
+                                     .next = *bucket};
+    *bucket = number;
+}
+
+KERNEL void event_drop(Engine *engine, uint32_t *link) {
+    const uint32_t number = *link;
+    *link = engine->events[number].next;
+    engine->events[number].next = engine->free_event;
+    engine->free_event = number;
+}
+
+KERNEL Gap pair_gap(const int dimension, const int growing, const Engine *engine,
+                    const uint32_t *first, const uint32_t *second, Lanes contact2,
+                    Growth growth) {
+    const size_t row = dimension == 2 ? ROW_2D : ROW_3D;
+    const double *i[LANES], *j[LANES];
+    for (int k = 0; k < LANES; k++) {
+        i[k] = engine->rows + row * first[k];
+        j[k] = engine->rows + row * second[k];
+    }
+    Lanes r[3], v[3];
+    lanes_separate(dimension, i, j, r, v);
+    return gap_of(dimension, growing, engine, r, v, contact2, 0, growth);
+}
+
+// Which pairs of the list meet in this window; returns how many are in list->hits.
+KERNEL size_t find_hits(const int dimension, const int growing, Engine *engine, Growth growth) {
+    const NeighbourList *list = &engine->list;
+    size_t hits = 0;
+    for (size_t p = 0; p < list->pairs; p += LANES) {
+        const Gap gap = pair_gap(dimension, growing, engine, list->first + p, list->second + p,
+                                 lanes_load(list->pair_contact2 + p), growth);
+        unsigned bits = lanes_bits(gap_closes(growing, gap, engine->settings.window));
+        for (; bits; bits &= bits - 1) {
+            list->hits[hits++] = (uint32_t)p + (uint32_t)__builtin_ctz(bits);
+        }
+    }
+    return hits;
+}
+
+KERNEL void predict_all(const int dimension, const int growing, Engine *engine, Growth growth) {
+    const NeighbourList *list = &engine->list;
+    const size_t hits = find_hits(dimension, growing, engine, growth);
+    for (size_t h = 0; h < hits; h += LANES) {
+        uint32_t first[LANES], second[LANES];
+        Lanes contact2 = {0};
+        const size_t lanes = hits - h < LANES ? hits - h : LANES;
+        for (size_t k = 0; k < LANES; k++) {
+            const uint32_t pair = list->hits[k < lanes ? h + k : h];
+            first[k] = list->first[pair];
+            second[k] = list->second[pair];
+            contact2[k] = list->pair_contact2[pair];
+        }
+        const Lanes time =
+            gap_time(pair_gap(dimension, growing, engine, first, second, contact2, growth));
+        for (size_t k = 0; k < lanes; k++) event_put(engine, time[k], first[k], second[k]);
+    }
+}
+
+// After its collision at time s: whom does `slot` meet in the rest of the window?
+KERNEL void predict_one(const int dimension, const int growing, Engine *engine, uint32_t slot,
+                        double s, Growth growth) {
+    const NeighbourList *list = &engine->list;
+    const size_t row = dimension == 2 ? ROW_2D : ROW_3D;
+    for (size_t n = list->start[slot]; n < list->start[slot + 1]; n += LANES) {
+        const double *i[LANES], *j[LANES];
+        for (int k = 0; k < LANES; k++) {
+            i[k] = engine->rows + row * slot;
+            j[k] = engine->rows + row * list->neighbour[n + (size_t)k];
+        }
+        Lanes r[3], v[3];
+        lanes_separate(dimension, i, j, r, v);
+        const Gap gap = gap_of(dimension, growing, engine, r, v, lanes_load(list->contact2 + n), s,
+                               growth);
+        unsigned bits = lanes_bits(gap_closes(growing, gap, engine->settings.window - s));
+        if (!bits) continue;
+        const Lanes time = lanes_all(s) + gap_time(gap);
+        for (; bits; bits &= bits - 1) {
+            const int k = __builtin_ctz(bits);
+            event_put(engine, time[k], slot, list->neighbour[n + (size_t)k]);
+        }
+    }
+}
+
+// The displacement of a particle from its anchor, at a place on its way.
+KERNEL void watch(const int dimension, Engine *engine, uint32_t slot, const double place[3]) {
+    const double *anchor = engine->list.anchor + (size_t)ANCHOR * slot;
+    double d2 = 0;
+    for (int a = 0; a < dimension; a++) d2 += (place[a] - anchor[a]) * (place[a] - anchor[a]);
+    if (d2 > engine->list.farthest2) engine->list.farthest2 = d2;
+}
+
+KERNEL void record(const Engine *engine, const Event *event) {
+    CollisionLog *log = engine->log;
+    const uint32_t p = engine->id[event->first], q = engine->id[event->second];
+    if (log->count < log->capacity) {
+        log->records[log->count] = (CollisionRecord){.low = p < q ? p : q,
+                                                     .high = p < q ? q : p,
+                                                     .step = engine->state->step,
+                                                     .window = engine->window,
+                                                     .time = event->time};
+    }
+    log->count++;
+}
+
+KERNEL void count_overlap(Engine *engine, double r2, double contact2) {
+    if (r2 >= contact2 * (1 - 2 * CONTACT_DEPTH)) return;
+    const double depth = 1 - sqrt(r2 / contact2);
+    engine->tally.corrected++;
+    if (depth > engine->tally.deepest_contact) engine->tally.deepest_contact = depth;
+}
+
+// The elastic collision (Weysser, thesis, eq. 2.5, divided by r^2 as it must be): momentum
+// -2 m_i m_j/(m_i + m_j) b r/r^2 goes to i, its mirror image to j; r = r_i - r_j, b = r.v.
+KERNEL void collide(const int dimension, const int growing, Engine *engine, const Event *event,
+                    Growth growth) {
+    const size_t row = dimension == 2 ? ROW_2D : ROW_3D, velocity = row / 2;
+    const uint32_t slot_i = event->first, slot_j = event->second;
+    double *i = engine->rows + row * slot_i, *j = engine->rows + row * slot_j;
+    const double t = event->time;
+    double r[3], place_i[3], place_j[3], r2 = 0, b = 0;
+    for (int a = 0; a < dimension; a++) {
+        const double v = i[velocity + (size_t)a] - j[velocity + (size_t)a];
+        const double edge = engine->edge[a], x = i[a] - j[a];
+        r[a] = (x > edge / 2 ? x - edge : x < -edge / 2 ? x + edge : x) + v * t;
+        r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
+        b = a == 0 ? r[a] * v : b + r[a] * v;
+        place_i[a] = i[a] + i[velocity + (size_t)a] * t;
+        place_j[a] = j[a] + j[velocity + (size_t)a] * t;
+    }
+    const double scale = growing ? growth.scale + growth.rate * t : 1;
+    const double contact = (engine->radius[slot_i] + engine->radius[slot_j]) * scale;
+    if (growing) b -= contact * contact / scale * growth.rate;
+    count_overlap(engine, r2, contact * contact);
+    watch(dimension, engine, slot_i, place_i);
+    watch(dimension, engine, slot_j, place_j);
+
+    const double mass_i = engine->mass[slot_i], mass_j = engine->mass[slot_j];
+    const double k = -2 * b / (r2 * (mass_i + mass_j));
+    const double change_i = k * mass_j, change_j = -(k * mass_i), momentum = k * mass_j * mass_i;
+    for (int a = 0; a < dimension; a++) {
+        const double dv_i = change_i * r[a], dv_j = change_j * r[a];
+        i[velocity + (size_t)a] += dv_i;
+        j[velocity + (size_t)a] += dv_j;
+        i[a] -= dv_i * t;
+        j[a] -= dv_j * t;
+        for (int c = 0; c < dimension; c++) engine->tally.exchange[a][c] += momentum * (r[a] * r[c]);
+    }
+    engine->tally.collisions++;
+    if (engine->log) record(engine, event);
+    if (++engine->stamp[slot_i] > COLLISIONS_MOST || ++engine->stamp[slot_j] > COLLISIONS_MOST) {
+        engine->hung = 1;
+    }
+}
+
+KERNEL int event_is_void(const Engine *engine, const Event *event) {
+    return event->stamps != engine->stamp[event->first] + engine->stamp[event->second];
+}
+
+// (time, lower id, higher id): an order that memory has no part in.
+KERNEL int event_before(const Engine *engine, const Event *a, const Event *b) {
+    if (a->time != b->time) return a->time < b->time;
+    const uint32_t p = engine->id[a->first], q = engine->id[a->second];
+    const uint32_t s = engine->id[b->first], t = engine->id[b->second];
+    const uint32_t low_a = p < q ? p : q, low_b = s < t ? s : t;
+    if (low_a != low_b) return low_a < low_b;
+    return (p < q ? q : p) < (s < t ? t : s);
+}
+
+// The link to the earliest event of a bucket that still stands, or NULL; drops the void ones.
+KERNEL uint32_t *earliest(Engine *engine, uint32_t *bucket) {
+    uint32_t *best = NULL;
+    for (uint32_t *link = bucket; *link != NO_EVENT;) {
+        const Event *event = &engine->events[*link];
+        if (event_is_void(engine, event)) {
+            engine->tally.stale++;
+            event_drop(engine, link);
+            continue;
+        }
+        if (!best || event_before(engine, event, &engine->events[*best])) best = link;
+        link = &engine->events[*link].next;
+    }
+    return best;
+}
+
+KERNEL void carry_out(const int dimension, const int growing, Engine *engine, Growth growth) {
+    for (uint32_t b = 0; b < engine->buckets; b++) {
+        uint32_t *link;
+        while (engine->bucket[b] != NO_EVENT && (link = earliest(engine, &engine->bucket[b]))) {
+            const Event event = engine->events[*link];
+            event_drop(engine, link);
+            collide(dimension, growing, engine, &event, growth);
+            if (engine->hung) return;
+            predict_one(dimension, growing, engine, event.first, event.time, growth);
+            predict_one(dimension, growing, engine, event.second, event.time, growth);
+        }
+    }
+}
+
+// Back into [0, edge); the anchor goes along, for the distance to it must not jump.
+KERNEL void fold(Engine *engine, double *row, uint32_t slot, int axis) {
+    const double edge = engine->edge[axis];
+    double *anchor = engine->list.anchor + (size_t)ANCHOR * slot;
+    int32_t *image = &engine->state->image[axis][engine->id[slot]];
+    if (row[axis] < 0) {
+        row[axis] += edge;
+        anchor[axis] += edge;
+        --*image;
+    }
+    if (row[axis] >= edge) { // also after a tiny negative number was rounded to the edge
+        row[axis] -= edge;
+        anchor[axis] -= edge;
+        ++*image;
+    }
+}
+
+KERNEL void move_all(const int dimension, Engine *engine) {
+    const size_t row_size = dimension == 2 ? ROW_2D : ROW_3D, velocity = row_size / 2;
+    for (uint32_t slot = 0; slot < engine->count; slot++) {
+        double *row = engine->rows + row_size * slot;
+        for (int a = 0; a < dimension; a++) {
+            row[a] += row[velocity + (size_t)a] * engine->settings.window;
+        }
+        watch(dimension, engine, slot, row);
+        for (int a = 0; a < dimension; a++) {
+            if (!(row[a] >= 0 && row[a] < engine->edge[a])) fold(engine, row, slot, a);
+        }
+    }
+}
+
+KERNEL void run(const int dimension, const int growing, Engine *engine) {
+    const Growth growth = {.scale = engine->scale, .rate = engine->growth};
+    engine->events_used = 0;
+    engine->free_event = NO_EVENT;
+    memset(engine->stamp, 0, (engine->count + 1) * sizeof *engine->stamp);
+    memset(engine->bucket, 0xff, engine->buckets * sizeof *engine->bucket);
+    predict_all(dimension, growing, engine, growth);
+    carry_out(dimension, growing, engine, growth);
+    move_all(dimension, engine);
+}
+
+// Becomes: the two kernels of an instruction set.
+#define ENGINE_KERNEL(path)                                                                        \
+    static void run_2d(Engine *engine) { run(2, 0, engine); }                                      \
+    static void run_3d(Engine *engine) { run(3, 0, engine); }                                      \
+    static void grow_2d(Engine *engine) { run(2, 1, engine); }                                     \
+    static void grow_3d(Engine *engine) { run(3, 1, engine); }                                     \
+    const EngineKernel engine_kernel_2d_##path = {run_2d, grow_2d};                                \
+    const EngineKernel engine_kernel_3d_##path = {run_3d, grow_3d};

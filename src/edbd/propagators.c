@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The engine as two propagators: event-driven Brownian dynamics, whose velocities are drawn anew
+// every thermostat interval (Weysser, thesis, ch. 2), and Newtonian dynamics.
+#include "edbd/edbd.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+static const double WINDOW = 0.01; // longest automatic window, in d sqrt(m/kT)
+
+typedef struct EventDriven {
+    double thermostat_interval;
+    int64_t substeps;
+} EventDriven;
+
+typedef struct Newtonian {
+    double window;
+} Newtonian;
+
+static const Option event_driven_rows[] = {
+    {.name = "thermostat_interval",
+     .type = OPTION_REAL,
+     .offset = offsetof(EventDriven, thermostat_interval),
+     .fallback = 0.01,
+     .least = 1e-6,
+     .most = 10,
+     .unit = "d sqrt(m/kT)",
+     .about = "Time between two draws of all velocities; D0 of a particle of mass m is half of it "
+              "over m, and the motion is Brownian for times well above it."},
+    {.name = "substeps",
+     .type = OPTION_INTEGER,
+     .offset = offsetof(EventDriven, substeps),
+     .fallback = 0,
+     .least = 0,
+     .most = 1000000,
+     .unit = "",
+     .about = "Windows per thermostat interval, between which can be observed; 0: as many as keep "
+              "each at 0.01 d sqrt(m/kT) or below."},
+};
+
+static const Option newtonian_rows[] = {
+    {.name = "window",
+     .type = OPTION_REAL,
+     .offset = offsetof(Newtonian, window),
+     .fallback = 0.01,
+     .least = 1e-6,
+     .most = 0.05,
+     .unit = "d sqrt(m/kT)",
+     .about = "Time between two moments that can be observed; the trajectory does not depend on it "
+              "but for rounding."},
+};
+
+typedef struct EnginePropagator {
+    Propagator base;
+    Engine *engine;
+} EnginePropagator;
+
+static const EventDriven *event_driven(const Settings *settings) {
+    return (const EventDriven *)settings->bytes;
+}
+
+static const Newtonian *newtonian(const Settings *settings) {
+    return (const Newtonian *)settings->bytes;
+}
+
+static int64_t event_driven_ticks(const Settings *settings) {
+    const EventDriven *set = event_driven(settings);
+    if (set->substeps > 0) return set->substeps;
+    // 0.03/0.01 is a little above 3: that is three windows, not four.
+    return (int64_t)ceil(set->thermostat_interval / WINDOW * (1 - 1e-12));
+}
+
+static double event_driven_flight(const Settings *settings) {
+    return event_driven(settings)->thermostat_interval / (double)event_driven_ticks(settings);
+}
+
+// D0 = Delta kT/(2 m) of the first species, so a tick of length w lasts w D0 in d^2/D0.
+static double event_driven_tick(const Settings *settings, const System *system) {
+    const double diffusion = event_driven(settings)->thermostat_interval /
+                             (2 * system->species[0].mass);
+    return event_driven_flight(settings) * diffusion;
+}
+
+static Status event_driven_check(const Settings *settings, const System *system) {
+    const double interval = event_driven(settings)->thermostat_interval;
+    if (!(interval > 0 && interval <= 10)) {
+        return status_fail(BAD_DATA, "thermostat_interval = %g must be above 0 and at most 10 "
+                                     "d sqrt(m/kT)",
+                           interval);
+    }
+    return engine_check(system, event_driven_flight(settings));
+}
+
+static int64_t newtonian_ticks(const Settings *settings) {
+    (void)settings;
+    return 1;
+}
+
+static double newtonian_flight(const Settings *settings) { return newtonian(settings)->window; }
+
+static double newtonian_tick(const Settings *settings, const System *system) {
+    (void)system;
+    return newtonian(settings)->window;
+}
+
+static Status newtonian_check(const Settings *settings, const System *system) {
+    const double window = newtonian(settings)->window;
+    if (!(window > 0)) return status_fail(BAD_DATA, "window = %g must be positive", window);
+    return engine_check(system, window);
+}
+
+// Rough, from measurements on one core: a base for draw and list, and a share of collisions.
+static double engine_seconds(double window, const System *system) {
+    const double base = system->dimension == 2 ? 5e-9 : 9e-9;
+    const double phi = system_packing_fraction(system);
+    const double pressure = 1 / ((1 - phi) * (1 - phi)); // Z, roughly
+    return base + 100e-9 * window * pressure;
+}
+
+static double event_driven_seconds(const Settings *settings, const System *system) {
+    return engine_seconds(event_driven_flight(settings), system);
+}
+
+static double newtonian_seconds(const Settings *settings, const System *system) {
+    return engine_seconds(newtonian(settings)->window, system);
+}
+
+static Status propagator_create(Propagator **out, const PropagatorKind *kind,
+                                const EngineSettings *settings, State *state, RngKey key) {
+    EnginePropagator *propagator = NULL;
+    TRY(NEW(propagator));
+    propagator->base.kind = kind;
+    const Status status = engine_create(&propagator->engine, settings, state, key);
+    if (status != OK) {
+        memory_free(propagator);
+        return status;
+    }
+    *out = &propagator->base;
+    return OK;
+}
+
+static Status event_driven_create(Propagator **out, const Settings *settings, State *state,
+                                  RngKey key) {
+    const EngineSettings engine = {.window = event_driven_flight(settings),
+                                   .windows_per_step = event_driven_ticks(settings),
+                                   .redraw = 1,
+                                   .stream = STREAM_VELOCITY};
+    return propagator_create(out, &propagator_event_driven, &engine, state, key);
+}
+
+static bool at_rest(const State *state) {
+    for (int a = 0; a < state->box.dimension; a++) {
+        for (size_t i = 0; i < state->count; i++) {
+            if (state->velocity[a][i] != 0) return false;
+        }
+    }
+    return true;
+}
+
+// No momentum, and exactly the kinetic energy dim N kT/2: what the Newtonian mode conserves.
+static void set_energy(State *state) {
+    double mass = 0, energy = 0;
+    const int dimension = state->box.dimension;
+    for (size_t i = 0; i < state->count; i++) mass += state->mass[i];
+    for (int a = 0; a < dimension; a++) {
+        double momentum = 0;
+        for (size_t i = 0; i < state->count; i++) momentum += state->mass[i] * state->velocity[a][i];
+        for (size_t i = 0; i < state->count; i++) {
+            double *v = &state->velocity[a][i];
+            if (state->count > 1) *v -= momentum / mass;
+            energy += state->mass[i] * *v * *v / 2;
+        }
+    }
+    const double factor = sqrt(dimension * (double)state->count / (2 * energy));
+    for (int a = 0; a < dimension; a++) {
+        for (size_t i = 0; i < state->count; i++) state->velocity[a][i] *= factor;
+    }
+}
+
+static Status draw_velocities(State *state, RngKey key) {
+    for (size_t i = 0; i < state->count; i++) {
+        Rng rng = rng_open(key, STREAM_VELOCITY, (uint64_t)state->step, i);
+        for (int a = 0; a < state->box.dimension; a++) {
+            state->velocity[a][i] = rng_normal(&rng) / sqrt(state->mass[i]);
+        }
+    }
+    set_energy(state);
+    return OK;
+}
+
+static Status newtonian_create(Propagator **out, const Settings *settings, State *state,
+                               RngKey key) {
+    const EngineSettings engine = {.window = newtonian(settings)->window, .windows_per_step = 1};
+    if (at_rest(state)) TRY(draw_velocities(state, key));
+    return propagator_create(out, &propagator_newtonian, &engine, state, key);
+}
+
+Engine *propagator_engine(Propagator *propagator) {
+    return ((EnginePropagator *)propagator)->engine;
+}
+
+static Status advance(Propagator *propagator, int64_t ticks, Tally *tally) {
+    return engine_advance(propagator_engine(propagator), ticks, tally);
+}
+
+static void release(Propagator *propagator) {
+    if (!propagator) return;
+    engine_free(propagator_engine(propagator));
+    memory_free(propagator);
+}
+
+const PropagatorKind propagator_event_driven = {
+    .name = "event-driven",
+    .about = "Brownian dynamics of hard discs and spheres: exact free flight and elastic "
+             "collisions, all velocities drawn anew every thermostat interval.",
+    .time_unit = "d^2/D0",
+    .time_meaning = "D0 is the free diffusion coefficient of the first species, half the "
+                    "thermostat interval over its mass.",
+    .options = {event_driven_rows, sizeof event_driven_rows / sizeof *event_driven_rows,
+                sizeof(EventDriven)},
+    .check = event_driven_check,
+    .tick = event_driven_tick,
+    .flight_time = event_driven_flight,
+    .ticks_per_step = event_driven_ticks,
+    .seconds_per_particle_tick = event_driven_seconds,
+    .memory = engine_memory,
+    .create = event_driven_create,
+    .advance = advance,
+    .free = release,
+};
+
+const PropagatorKind propagator_newtonian = {
+    .name = "newtonian",
+    .about = "Newtonian dynamics of hard discs and spheres, for fast equilibration and as the "
+             "limit of long thermostat intervals.",
+    .time_unit = "d sqrt(m/kT)",
+    .time_meaning = "The time in which a particle of the reference mass flies about a diameter.",
+    .options = {newtonian_rows, sizeof newtonian_rows / sizeof *newtonian_rows, sizeof(Newtonian)},
+    .check = newtonian_check,
+    .tick = newtonian_tick,
+    .flight_time = newtonian_flight,
+    .ticks_per_step = newtonian_ticks,
+    .seconds_per_particle_tick = newtonian_seconds,
+    .memory = engine_memory,
+    .create = newtonian_create,
+    .advance = advance,
+    .free = release,
+};
