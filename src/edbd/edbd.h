@@ -46,5 +46,5 @@ typedef struct CollisionLog {
     size_t count;
 } CollisionLog;
 
-void engine_record(Engine *engine, CollisionLog *log);     // NULL: no more
-Engine *propagator_engine(Propagator *propagator); // of a propagator of this module
+void engine_record(Engine *engine, CollisionLog *log); // NULL: no more
+Engine *propagator_engine(Propagator *propagator);     // of a propagator of this module

@@ -11,7 +11,7 @@
 #include <string.h>
 
 static const int64_t SNAPSHOT_WINDOWS = 8; // windows at most done again after a failed list
-static const double LIST_MARGIN = 2.5;     // rebuild this many thermal flights before the end
+static const double LIST_MARGIN = 4.5;     // rebuild this many thermal flights before the end
 static const double BOX_DIAMETERS = 2.2;   // shortest edge, in largest diameters
 static const double FLIGHT_MOST = 0.05;    // thermal flight in a window, in d
 static const int64_t PARTICLES_MOST = 1 << 28;
@@ -128,9 +128,13 @@ void engine_grow(Engine *engine, double scale, double rate) {
     engine->growth = rate;
 }
 
-double engine_scale(const Engine *engine) { return engine->scale; }
+double engine_scale(const Engine *engine) {
+    return engine->scale;
+}
 
-void engine_record(Engine *engine, CollisionLog *log) { engine->log = log; }
+void engine_record(Engine *engine, CollisionLog *log) {
+    engine->log = log;
+}
 
 // Velocities from a Gaussian of variance kT/m per direction (Weysser, thesis, eq. 2.7, corrected).
 static void redraw(Engine *engine) {
@@ -206,8 +210,9 @@ static Status replay(Engine *engine, bool list_failed) {
     snapshot_restore(engine);
     if (engine->outgrown) TRY(more_events(engine));
     if (fresh && list_failed) {
-        return status_fail(UNHEALTHY, "in step %lld a particle moves farther in a window of %g than "
-                                      "its neighbour list reaches (%g); use a shorter window",
+        return status_fail(UNHEALTHY,
+                           "in step %lld a particle moves farther in a window of %g than "
+                           "its neighbour list reaches (%g); use a shorter window",
                            (long long)engine->state->step, engine->settings.window,
                            list_reach(engine));
     }
@@ -226,11 +231,14 @@ static void next_window(Engine *engine) {
 
 static Status one_window(Engine *engine) {
     if (engine->window == 0 && engine->settings.redraw) redraw(engine);
-    if (engine->growth != 0 || engine->scale != 1) engine->kernel->run_growing(engine);
-    else engine->kernel->run_window(engine);
+    if (engine->growth != 0 || engine->scale != 1)
+        engine->kernel->run_growing(engine);
+    else
+        engine->kernel->run_window(engine);
     if (engine->hung) {
-        return status_fail(UNHEALTHY, "a particle collided more than 1000 times within one window "
-                                      "of %g in step %lld: the packing is jammed or overlaps",
+        return status_fail(UNHEALTHY,
+                           "a particle collided more than 1000 times within one window "
+                           "of %g in step %lld: the packing is jammed or overlaps",
                            engine->settings.window, (long long)engine->state->step);
     }
     next_window(engine);
@@ -240,7 +248,8 @@ static Status one_window(Engine *engine) {
     if (list_failed || engine->outgrown) return replay(engine, list_failed);
     const double left = reach - LIST_MARGIN * engine->fastest * engine->settings.window;
     if (engine->careful > 0) engine->careful--;
-    if (engine->list.farthest2 > left * left || left < 0 || engine->careful > 0) return renew_list(engine);
+    if (engine->list.farthest2 > left * left || left < 0 || engine->careful > 0)
+        return renew_list(engine);
     if (engine->snapshot.windows == SNAPSHOT_WINDOWS) snapshot_take(engine);
     return OK;
 }
@@ -266,8 +275,9 @@ Status engine_check(const System *system, double window) {
         const Species *species = &system->species[s];
         const double spread = species->spread == SPREAD_NONE ? 0 : 3 * species->spread_width;
         if (shape_dimension((ShapeKind)species->shape) != system->dimension) {
-            return status_fail(BAD_DATA, "species '%s': a %s lives in %d dimensions, the system has "
-                                         "%lld",
+            return status_fail(BAD_DATA,
+                               "species '%s': a %s lives in %d dimensions, the system has "
+                               "%lld",
                                species->name, shape_names[species->shape],
                                shape_dimension((ShapeKind)species->shape),
                                (long long)system->dimension);
@@ -277,8 +287,9 @@ Status engine_check(const System *system, double window) {
     }
     for (int a = 0; a < box.dimension; a++) {
         if (box.edge[a] >= BOX_DIAMETERS * largest) continue;
-        return status_fail(BAD_DATA, "the box is %.4g d long along %c, less than %g times the "
-                                     "largest diameter of %g d; take more particles",
+        return status_fail(BAD_DATA,
+                           "the box is %.4g d long along %c, less than %g times the "
+                           "largest diameter of %g d; take more particles",
                            box.edge[a], "xyz"[a], BOX_DIAMETERS, largest);
     }
     if (system->particles > PARTICLES_MOST) {
@@ -286,8 +297,9 @@ Status engine_check(const System *system, double window) {
                            (long long)system->particles, (long long)PARTICLES_MOST);
     }
     if (window / sqrt(lightest) <= FLIGHT_MOST) return OK;
-    return status_fail(BAD_DATA, "particles of mass %g fly %.3g d in a window of %g, more than %g; "
-                                 "use windows of %.3g at most",
+    return status_fail(BAD_DATA,
+                       "particles of mass %g fly %.3g d in a window of %g, more than %g; "
+                       "use windows of %.3g at most",
                        lightest, window / sqrt(lightest), window, FLIGHT_MOST,
                        FLIGHT_MOST * sqrt(lightest));
 }

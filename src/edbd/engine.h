@@ -30,19 +30,19 @@ typedef struct Event {
 // after a collision.
 typedef struct NeighbourList {
     double skin;
-    double scale;         // of the diameters when it was made
-    double farthest2;     // square of the largest distance from an anchor since
-    int64_t age;          // windows since
-    double *anchor;       // [slots][ANCHOR]: where each was then
-    size_t pairs;         // padded to whole blocks with a pair that never meets
+    double scale;     // of the diameters when it was made
+    double farthest2; // square of the largest distance from an anchor since
+    int64_t age;      // windows since
+    double *anchor;   // [slots][ANCHOR]: where each was then
+    size_t pairs;     // padded to whole blocks with a pair that never meets
     size_t pair_capacity;
     uint32_t *first, *second; // [pairs]
     double *pair_contact2;    // [pairs] square of the contact distance at scale 1
     uint32_t *hits;           // [pairs] room for those that meet in a window
     uint32_t *start;          // [slots + 1], multiples of BLOCK
     size_t neighbour_capacity;
-    uint32_t *neighbour;      // [start[slots]]
-    double *contact2;         // [start[slots]]
+    uint32_t *neighbour; // [start[slots]]
+    double *contact2;    // [start[slots]]
 } NeighbourList;
 
 // What a window must not pass over: the state at the last moment known to be right.
@@ -71,31 +71,31 @@ struct Engine {
     double scale, growth; // of the diameters: now, and its rate
     int64_t window;       // windows done in this step
 
-    double *rows;         // [count + 1][row]
-    double *spare_rows;   // the same, for reordering
-    uint32_t *id;         // [count] of each slot
+    double *rows;       // [count + 1][row]
+    double *spare_rows; // the same, for reordering
+    uint32_t *id;       // [count] of each slot
     uint32_t *spare_id;
-    double *radius;       // [count]
-    double *mass;         // [count]
-    double *thermal;      // [count] 1/sqrt(mass)
-    double *normals[3];   // [count]
-    uint32_t *stamp;      // [count + 1] collisions of each in this window
-    double largest;       // diameter
-    double fastest;       // thermal velocity
+    double *radius;     // [count]
+    double *mass;       // [count]
+    double *thermal;    // [count] 1/sqrt(mass)
+    double *normals[3]; // [count]
+    uint32_t *stamp;    // [count + 1] collisions of each in this window
+    double largest;     // diameter
+    double fastest;     // thermal velocity
 
     NeighbourList list;
     uint32_t *cell_of;    // [count]
     uint32_t *cell_start; // [cells_most + 1]
     size_t cells_most;
 
-    Event *events;        // [event_capacity]
+    Event *events; // [event_capacity]
     uint32_t event_capacity, events_used, free_event;
-    uint32_t *bucket;     // [buckets] first event of each slice of the window
-    uint32_t buckets;     // a power of two
+    uint32_t *bucket; // [buckets] first event of each slice of the window
+    uint32_t buckets; // a power of two
 
-    int64_t careful;      // windows still to be done with a new list each
-    int outgrown;         // the events did not fit
-    int hung;             // a particle collided more often than anything physical
+    int64_t careful; // windows still to be done with a new list each
+    int outgrown;    // the events did not fit
+    int hung;        // a particle collided more often than anything physical
 
     Tally tally;
     Snapshot snapshot;
@@ -104,8 +104,8 @@ struct Engine {
 
 // One kernel per instruction set, the same source compiled for each.
 struct EngineKernel {
-    void (*run_window)(Engine *engine);      // predict, collide, move, fold
-    void (*run_growing)(Engine *engine);     // the same with growing diameters
+    void (*run_window)(Engine *engine);  // predict, collide, move, fold
+    void (*run_growing)(Engine *engine); // the same with growing diameters
 };
 
 // Becomes: extern const EngineKernel engine_kernel_2d_portable, ...

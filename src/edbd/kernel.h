@@ -100,8 +100,7 @@ KERNEL void event_drop(Engine *engine, uint32_t *link) {
 }
 
 KERNEL Gap pair_gap(const int dimension, const int growing, const Engine *engine,
-                    const uint32_t *first, const uint32_t *second, Lanes contact2,
-                    Growth growth) {
+                    const uint32_t *first, const uint32_t *second, Lanes contact2, Growth growth) {
     const size_t row = dimension == 2 ? ROW_2D : ROW_3D;
     const double *i[LANES], *j[LANES];
     for (int k = 0; k < LANES; k++) {
@@ -160,8 +159,8 @@ KERNEL void predict_one(const int dimension, const int growing, Engine *engine, 
         }
         Lanes r[3], v[3];
         lanes_separate(dimension, i, j, r, v);
-        const Gap gap = gap_of(dimension, growing, engine, r, v, lanes_load(list->contact2 + n), s,
-                               growth);
+        const Gap gap =
+            gap_of(dimension, growing, engine, r, v, lanes_load(list->contact2 + n), s, growth);
         unsigned bits = lanes_bits(gap_closes(growing, gap, engine->settings.window - s));
         if (!bits) continue;
         const Lanes time = lanes_all(s) + gap_time(gap);
@@ -234,7 +233,8 @@ KERNEL void collide(const int dimension, const int growing, Engine *engine, cons
         j[velocity + (size_t)a] += dv_j;
         i[a] -= dv_i * t;
         j[a] -= dv_j * t;
-        for (int c = 0; c < dimension; c++) engine->tally.exchange[a][c] += momentum * (r[a] * r[c]);
+        for (int c = 0; c < dimension; c++)
+            engine->tally.exchange[a][c] += momentum * (r[a] * r[c]);
     }
     engine->tally.collisions++;
     if (engine->log) record(engine, event);
@@ -331,9 +331,17 @@ KERNEL void run(const int dimension, const int growing, Engine *engine) {
 
 // Becomes: the two kernels of an instruction set.
 #define ENGINE_KERNEL(path)                                                                        \
-    static void run_2d(Engine *engine) { run(2, 0, engine); }                                      \
-    static void run_3d(Engine *engine) { run(3, 0, engine); }                                      \
-    static void grow_2d(Engine *engine) { run(2, 1, engine); }                                     \
-    static void grow_3d(Engine *engine) { run(3, 1, engine); }                                     \
+    static void run_2d(Engine *engine) {                                                           \
+        run(2, 0, engine);                                                                         \
+    }                                                                                              \
+    static void run_3d(Engine *engine) {                                                           \
+        run(3, 0, engine);                                                                         \
+    }                                                                                              \
+    static void grow_2d(Engine *engine) {                                                          \
+        run(2, 1, engine);                                                                         \
+    }                                                                                              \
+    static void grow_3d(Engine *engine) {                                                          \
+        run(3, 1, engine);                                                                         \
+    }                                                                                              \
     const EngineKernel engine_kernel_2d_##path = {run_2d, grow_2d};                                \
     const EngineKernel engine_kernel_3d_##path = {run_3d, grow_3d};

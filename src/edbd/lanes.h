@@ -27,9 +27,15 @@ typedef __mmask8 Where; // one bit per lane
 typedef LaneBits Where; // all ones in the lanes where it is true
 #endif
 
-KERNEL Lanes lanes_all(double value) { return (Lanes){0} + value; }
-KERNEL Lanes lanes_load(const double *from) { return *(const Lanes *)from; }
-KERNEL void lanes_store(double *to, Lanes lanes) { *(Lanes *)to = lanes; }
+KERNEL Lanes lanes_all(double value) {
+    return (Lanes){0} + value;
+}
+KERNEL Lanes lanes_load(const double *from) {
+    return *(const Lanes *)from;
+}
+KERNEL void lanes_store(double *to, Lanes lanes) {
+    *(Lanes *)to = lanes;
+}
 
 KERNEL Where lanes_less(Lanes a, Lanes b) {
 #if LANES == 8
@@ -187,6 +193,8 @@ KERNEL void lanes_separate_3d(const double *const i[LANES], const double *const 
 
 KERNEL void lanes_separate(const int dimension, const double *const i[LANES],
                            const double *const j[LANES], Lanes r[3], Lanes v[3]) {
-    if (dimension == 2) lanes_separate_2d(i, j, r, v);
-    else lanes_separate_3d(i, j, r, v);
+    if (dimension == 2)
+        lanes_separate_2d(i, j, r, v);
+    else
+        lanes_separate_3d(i, j, r, v);
 }

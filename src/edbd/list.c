@@ -160,8 +160,7 @@ static double pair_distance2(const Engine *engine, size_t p, size_t q) {
 // Lists the neighbours of `slot` that lie in one cell; returns the new end of its list.
 static size_t list_cell(Engine *engine, uint32_t slot, size_t cell, size_t end) {
     NeighbourList *list = &engine->list;
-    for (uint32_t other = engine->cell_start[cell]; other < engine->cell_start[cell + 1];
-         other++) {
+    for (uint32_t other = engine->cell_start[cell]; other < engine->cell_start[cell + 1]; other++) {
         if (other == slot) continue;
         const double contact = engine->radius[slot] + engine->radius[other];
         const double range = contact * engine->scale + list->skin;
@@ -197,8 +196,9 @@ static Status list_slot(Engine *engine, const Grid *grid, uint32_t slot, size_t 
     for (int z = -reach[2]; z <= reach[2]; z++) {
         for (int y = -reach[1]; y <= reach[1]; y++) {
             for (int x = -reach[0]; x <= reach[0]; x++) {
-                const size_t row = (size_t)wrap(at[2] + z, grid->cells[2]) * (size_t)grid->cells[1] +
-                                   (size_t)wrap(at[1] + y, grid->cells[1]);
+                const size_t row =
+                    (size_t)wrap(at[2] + z, grid->cells[2]) * (size_t)grid->cells[1] +
+                    (size_t)wrap(at[1] + y, grid->cells[1]);
                 const size_t other =
                     row * (size_t)grid->cells[0] + (size_t)wrap(at[0] + x, grid->cells[0]);
                 around[cells++] = other;

@@ -77,16 +77,17 @@ static double event_driven_flight(const Settings *settings) {
 
 // D0 = Delta kT/(2 m) of the first species, so a tick of length w lasts w D0 in d^2/D0.
 static double event_driven_tick(const Settings *settings, const System *system) {
-    const double diffusion = event_driven(settings)->thermostat_interval /
-                             (2 * system->species[0].mass);
+    const double diffusion =
+        event_driven(settings)->thermostat_interval / (2 * system->species[0].mass);
     return event_driven_flight(settings) * diffusion;
 }
 
 static Status event_driven_check(const Settings *settings, const System *system) {
     const double interval = event_driven(settings)->thermostat_interval;
     if (!(interval > 0 && interval <= 10)) {
-        return status_fail(BAD_DATA, "thermostat_interval = %g must be above 0 and at most 10 "
-                                     "d sqrt(m/kT)",
+        return status_fail(BAD_DATA,
+                           "thermostat_interval = %g must be above 0 and at most 10 "
+                           "d sqrt(m/kT)",
                            interval);
     }
     return engine_check(system, event_driven_flight(settings));
@@ -97,7 +98,9 @@ static int64_t newtonian_ticks(const Settings *settings) {
     return 1;
 }
 
-static double newtonian_flight(const Settings *settings) { return newtonian(settings)->window; }
+static double newtonian_flight(const Settings *settings) {
+    return newtonian(settings)->window;
+}
 
 static double newtonian_tick(const Settings *settings, const System *system) {
     (void)system;
@@ -165,7 +168,8 @@ static void set_energy(State *state) {
     for (size_t i = 0; i < state->count; i++) mass += state->mass[i];
     for (int a = 0; a < dimension; a++) {
         double momentum = 0;
-        for (size_t i = 0; i < state->count; i++) momentum += state->mass[i] * state->velocity[a][i];
+        for (size_t i = 0; i < state->count; i++)
+            momentum += state->mass[i] * state->velocity[a][i];
         for (size_t i = 0; i < state->count; i++) {
             double *v = &state->velocity[a][i];
             if (state->count > 1) *v -= momentum / mass;

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From nothing to a valid State: draw sizes, put species at random on a lattice with diameters
+// scaled down, melt it as a fluid, and let the diameters grow at a constant rate while the
+// event-driven dynamics runs (Lubachevsky and Stillinger, J. Stat. Phys. 60, 561, 1990). Growing
+// heats the particles; their velocities are drawn anew often enough for that not to matter.
+#include "packing/packing.h"
+
+#include "base/memory.h"
+#include "edbd/edbd.h"
+#include "packing/lattice.h"
+
+#include <math.h>
+#include <time.h>
+
+static const double WINDOW = 0.01;                  // in d sqrt(m/kT), for the reference mass
+static const int64_t WINDOWS_PER_DRAW = 10;         // of the velocities
+static const int64_t WINDOWS_PER_LOOK = 100;        // at `stop`
+static const double MELT_PACKING[2] = {0.40, 0.30}; // 2D, 3D: fluids that mix fast
+static const double MELT_TIME = 20;                 // in d sqrt(m/kT), and
+static const double MELT_TIME_PER_EDGE = 0.5;       // sound must cross the box
+static const double GROWTH_RATE = 0.02;             // of the scale of diameters, per d sqrt(m/kT)
+static const double LATTICE_GAP = 1e-3;             // between the largest neighbours at the start
+static const double MARGIN = 1e-10; // grown beyond the target, so that contacts open
+
+// Packing fractions that growth at this rate reaches; above, everything jams or must crystallise.
+static const double EQUAL_MOST[2] = {0.86, 0.60}, UNEQUAL_MOST[2] = {0.83, 0.62};
+
+static bool sizes_differ(const System *system) {
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Species *species = &system->species[s];
+        if (species->spread != SPREAD_NONE && species->spread_width > 0) return true;
+        if (species->diameter != system->species[0].diameter) return true;
+    }
+    return false;
+}
+
+Status packing_check(const System *system) {
+    const double phi = system_packing_fraction(system);
+    const int flat = system->dimension == 2;
+    const bool differ = sizes_differ(system);
+    const double most = differ ? UNEQUAL_MOST[!flat] : EQUAL_MOST[!flat];
+    if (phi <= most) return OK;
+    return status_fail(BAD_DATA,
+                       "packing_fraction = %.4g exceeds %.2f, up to which swelling packs "
+                       "%s %s in disorder",
+                       phi, most, differ ? "unequal" : "equal", flat ? "discs" : "spheres");
+}
+
+// Relative deviation of a diameter from its mean. The Gaussian is cut at three widths.
+static double draw_deviation(const Species *species, Rng *rng) {
+    static const double CUT = 3;
+    if (species->spread == SPREAD_UNIFORM) {
+        return species->spread_width * sqrt(3.0) * (2 * rng_uniform(rng) - 1);
+    }
+    double x;
+    do x = rng_normal(rng);
+    while (!(fabs(x) <= CUT));
+    return species->spread_width * x;
+}
+
+// The box is that of the mean sizes: drawn ones are scaled by one factor near 1 to fill it right.
+static void draw_diameters(State *state, RngKey key) {
+    bool spread = false;
+    for (size_t i = 0; i < state->count; i++) {
+        const Species *species = &state->system.species[state->species_of[i]];
+        state->diameter[i] = species->diameter;
+        if (species->spread == SPREAD_NONE) continue;
+        Rng rng = rng_open(key, STREAM_DIAMETERS, 0, i);
+        state->diameter[i] *= 1 + draw_deviation(species, &rng);
+        spread = true;
+    }
+    if (!spread) return;
+    const double ratio = system_packing_fraction(&state->system) / state_packing_fraction(state);
+    const double factor = state->box.dimension == 2 ? sqrt(ratio) : cbrt(ratio);
+    for (size_t i = 0; i < state->count; i++) state->diameter[i] *= factor;
+}
+
+// Every particle on a lattice site drawn at random; sites may be left over.
+static Status place(State *state, RngKey key, const Lattice *lattice) {
+    const size_t sites = lattice_sites(lattice);
+    uint32_t *site = NULL;
+    TRY(NEW_ARRAY(site, sites));
+    for (size_t s = 0; s < sites; s++) site[s] = (uint32_t)s;
+    Rng rng = rng_open(key, STREAM_PACKING, 0, 0);
+    for (size_t i = 0; i < state->count; i++) {
+        const size_t other = i + rng_below(&rng, sites - i);
+        const uint32_t swap = site[i];
+        site[i] = site[other];
+        site[other] = swap;
+        double position[3];
+        lattice_site(lattice, site[i], position);
+        for (int a = 0; a < state->box.dimension; a++) state->position[a][i] = position[a];
+    }
+    memory_free(site);
+    return OK;
+}
+
+static double largest_diameter(const State *state) {
+    double largest = 0;
+    for (size_t i = 0; i < state->count; i++) largest = fmax(largest, state->diameter[i]);
+    return largest;
+}
+
+static double lightest_mass(const State *state) {
+    double lightest = state->mass[0];
+    for (size_t i = 0; i < state->count; i++) lightest = fmin(lightest, state->mass[i]);
+    return lightest;
+}
+
+static double starting_scale(const State *state, const Lattice *lattice) {
+    const int flat = state->box.dimension == 2;
+    const double ratio = MELT_PACKING[!flat] / state_packing_fraction(state);
+    const double fluid = flat ? sqrt(ratio) : cbrt(ratio);
+    const double room = lattice->nearest * (1 - LATTICE_GAP) / largest_diameter(state);
+    return fmin(1, fmin(fluid, room));
+}
+
+static Status run(Engine *engine, int64_t windows, const atomic_int *stop, Tally *tally) {
+    while (windows > 0) {
+        if (stop && atomic_load(stop)) return status_fail(INTERRUPTED, "stopped while packing");
+        const int64_t next = windows < WINDOWS_PER_LOOK ? windows : WINDOWS_PER_LOOK;
+        TRY(engine_advance(engine, next, tally));
+        windows -= next;
+    }
+    return OK;
+}
+
+static Status melt_and_grow(State *state, Engine *engine, double window, double scale,
+                            const atomic_int *stop, Tally *tally) {
+    double edges = 0;
+    for (int a = 0; a < state->box.dimension; a++) edges = fmax(edges, state->box.edge[a]);
+    const double melt = MELT_TIME + MELT_TIME_PER_EDGE * edges;
+    engine_grow(engine, scale, 0);
+    TRY(run(engine, (int64_t)ceil(melt / window), stop, tally));
+    if (scale == 1) return OK;
+    const double growth = 1 + MARGIN - scale;
+    const int64_t windows = (int64_t)ceil(growth / (GROWTH_RATE * window));
+    engine_grow(engine, scale, growth / ((double)windows * window));
+    return run(engine, windows, stop, tally);
+}
+
+static Status swell(State *state, RngKey key, double scale, const atomic_int *stop, Tally *tally) {
+    const double window = WINDOW * sqrt(fmin(1, lightest_mass(state)));
+    const EngineSettings settings = {.window = window,
+                                     .windows_per_step = WINDOWS_PER_DRAW,
+                                     .redraw = 1,
+                                     .stream = STREAM_SWELLING};
+    Engine *engine = NULL;
+    TRY(engine_create(&engine, &settings, state, key));
+    const Status status = melt_and_grow(state, engine, window, scale, stop, tally);
+    engine_free(engine);
+    return status;
+}
+
+// At rest, in the box it started in, at step 0: the propagator draws the velocities.
+static Status settle(State *state) {
+    state->step = 0;
+    for (int a = 0; a < state->box.dimension; a++) {
+        for (size_t i = 0; i < state->count; i++) {
+            state->velocity[a][i] = 0;
+            state->image[a][i] = 0;
+        }
+    }
+    double deepest = 0;
+    TRY(state_validate(state));
+    TRY(state_deepest_overlap(state, 0, &deepest, NULL));
+    if (deepest <= 0) return OK;
+    return status_fail(UNHEALTHY, "the packing overlaps by %.3g", deepest);
+}
+
+static Status pack(State *state, RngKey key, const atomic_int *stop, PackingReport *report) {
+    draw_diameters(state, key);
+    const Lattice lattice = lattice_best(&state->box, state->count);
+    TRY(place(state, key, &lattice));
+    Tally tally = {0};
+    report->lattice_scale = starting_scale(state, &lattice);
+    TRY(swell(state, key, report->lattice_scale, stop, &tally));
+    report->windows = (int64_t)tally.windows;
+    return settle(state);
+}
+
+static double seconds_now(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+Status packing_create(State **out, const System *system, RngKey key, const atomic_int *stop,
+                      PackingReport *report) {
+    TRY(packing_check(system));
+    const double start = seconds_now();
+    PackingReport unread;
+    if (!report) report = &unread;
+    *report = (PackingReport){0};
+    State *state = NULL;
+    TRY(state_create(&state, system));
+    const Status status = pack(state, key, stop, report);
+    if (status != OK) {
+        state_free(state);
+        return status;
+    }
+    report->seconds = seconds_now() - start;
+    *out = state;
+    return OK;
+}
