@@ -25,8 +25,9 @@ build/perrin show "$directory" | awk '
         sub(/\/.*/, "", stage)
         sub(/.*\//, "", name)
         if (name ~ /^long_time_diffusion/) measured = stage
-        number[stage, name] = sprintf("%-16s %s", trim(substr($0, value, unit - value)),
-                                      trim(substr($0, unit, n - unit)))
+        shown = trim(substr($0, value, unit - value))
+        if (shown !~ /\(/) shown = sprintf("%.5g", shown) # exact, or the same in all replicas
+        number[stage, name] = sprintf("%-16s %s", shown, trim(substr($0, unit, n - unit)))
         order[++rows] = name
     }
     function line(name, words) {

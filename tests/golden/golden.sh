@@ -44,7 +44,7 @@ same_as_reference() { # DIR
 }
 
 recipe() {
-    grep -E '^CMAKE_(BUILD_TYPE|C_FLAGS[A-Z_]*):|^PERRIN_SANITIZE' "$1/CMakeCache.txt"
+    grep -E '^CMAKE_(BUILD_TYPE|C_FLAGS[A-Z_]*):|^PERRIN_SANITIZE' "$1/CMakeCache.txt" | sed 's/:[A-Z]*=/=/'
     readlink -f "$(sed -n 's/^CMAKE_C_COMPILER:[A-Z]*=//p' "$1/CMakeCache.txt")"
 }
 same_recipe() { [ "$(recipe "$1")" = "$(recipe "$build")" ]; }
