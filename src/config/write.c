@@ -19,11 +19,9 @@ static void indent(Text *text, size_t blanks) {
 // Returns how deep the last part of the name lies.
 static size_t open_maps(const char *name, const char *before, size_t blanks, Text *text) {
     size_t depth = 0;
-    bool same = true;
     for (const char *part = name, *dot; (dot = strchr(part, '.')); part = dot + 1, depth++) {
         const size_t length = (size_t)(dot + 1 - name);
-        same = same && strncmp(name, before, length) == 0;
-        if (same) continue;
+        if (strncmp(name, before, length) == 0) continue;
         indent(text, blanks + STEP * depth);
         text_add(text, "%.*s:\n", (int)(dot - part), part);
     }

@@ -128,6 +128,17 @@ START_TEST(a_stage_overrides_some_keys_of_the_dynamics) {
 }
 END_TEST
 
+START_TEST(a_title_may_fill_its_room) {
+    char setting[OPTION_TEXT_SIZE + 8] = "title=";
+    memset(setting + strlen(setting), 't', OPTION_TEXT_SIZE - 1);
+    const char *const settings[] = {setting};
+    const ConfigOverrides overrides = {1, settings};
+    Plan *plan = plan_of(mixture, &overrides);
+    ck_assert_uint_eq(strlen(plan->title), OPTION_TEXT_SIZE - 1);
+    memory_free(plan);
+}
+END_TEST
+
 START_TEST(overrides_replace_and_add_values) {
     static const char *const settings[] = {"system.particles=500", "ensemble={seed: 3}",
                                            "system.species.big.diameter=1.3",
@@ -156,6 +167,9 @@ START_TEST(a_difference_is_told_key_by_key) {
     ck_assert_ptr_nonnull(strstr(text, "protocol.rest.observe: was {mean_squared_displacement"));
     ck_assert_ptr_nonnull(strstr(text, "ensemble.seed: was 9007199254740992, now 2\n"));
     ck_assert_ptr_null(strstr(text, "pressure"));
+    memory_free(text);
+    ck_assert_int_eq(config_difference(b, a, &text), OK);
+    ck_assert_ptr_nonnull(strstr(text, "protocol.rest.observe: was not there, now {mean_squared_"));
     memory_free(text);
     memory_free(a);
     memory_free(b);
@@ -356,6 +370,7 @@ int main(void) {
     tcase_add_test(cases, values_arrive_where_they_belong);
     tcase_add_test(cases, settings_of_an_observable_come_from_stage_then_file_then_table);
     tcase_add_test(cases, a_stage_overrides_some_keys_of_the_dynamics);
+    tcase_add_test(cases, a_title_may_fill_its_room);
     tcase_add_test(cases, overrides_replace_and_add_values);
     tcase_add_test(cases, a_difference_is_told_key_by_key);
     tcase_add_test(cases, every_type_has_its_default);
