@@ -101,11 +101,12 @@ Status disk_size(int file, size_t *size, const char *path) {
     return OK;
 }
 
-// The folder that holds `path`, durable: its new entry must survive a loss of power too.
-static Status sync_above(int parent, const char *path) {
-    char *above = join(path, "/..", "");
+// The folder in which `name` was made: the new entry must survive a loss of power too.
+static Status sync_parent(const Folder *parent, const char *name) {
+    if (parent) return disk_folder_sync(parent);
+    char *above = join(name, "/..", "");
     if (!above) return NO_MEMORY;
-    const int descriptor = openat(parent, above, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const int descriptor = open(above, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     Status status = OK;
     if (descriptor < 0) status = status_fail_errno(IO_FAILED, "cannot open '%s'", above);
     if (status == OK) status = disk_sync(descriptor, above);
@@ -123,7 +124,7 @@ Status disk_folder_open(Folder *folder, const Folder *parent, const char *name, 
     if (make && !made && errno != EEXIST) {
         status = status_fail_errno(IO_FAILED, "cannot make the directory '%s'", path);
     }
-    if (made) status = sync_above(from, name);
+    if (made) status = sync_parent(parent, name);
     int descriptor = -1;
     if (status == OK) {
         descriptor = openat(from, name, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -191,7 +192,10 @@ static Status give_name(const Folder *folder, const char *name) {
     char *fresh = temporary(name);
     if (!fresh) return NO_MEMORY;
     Status status = OK;
-    if (renameat(folder->descriptor, fresh, folder->descriptor, name) != 0) {
+    int result;
+    do result = renameat(folder->descriptor, fresh, folder->descriptor, name);
+    while (result != 0 && errno == EINTR);
+    if (result != 0) {
         status = fail_at(folder, name, "give its name to");
         unlinkat(folder->descriptor, fresh, 0);
     }

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-enum { REPLICAS = 2, FRAMES_PER_CHECKPOINT = 3 };
+enum { REPLICAS = 2, FRAMES_PER_CHECKPOINT = 2 };
 
 typedef struct Wishes {
     const char *directory;
@@ -23,7 +23,7 @@ typedef struct Wishes {
 static Wishes read_wishes(int count, char **words) {
     return (Wishes){
         .directory = count > 1 ? words[1] : "run",
-        .frames = count > 2 ? atoll(words[2]) : 6,
+        .frames = count > 2 ? atoll(words[2]) : 4,
         .particles = count > 3 ? atoll(words[3]) : 50,
         .pause = count > 4 ? (useconds_t)atol(words[4]) : 0,
     };
