@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What the fault tests share. Sourced with: PROGRAM (store_run or perrin), SAME (same_results).
-# The small run is `start DIR`; `same DIR REFERENCE` compares what two runs left, bit for bit.
+# The small run is `start DIR`, its
+# size LENGTH, PARTICLES and (store_run) PAUSE; `same DIR REFERENCE` compares what two runs left, bit for bit.
 set -u
 [ -n "${TMPDIR:-}" ] || { [ -w /dev/shm ] && TMPDIR=/dev/shm; } || TMPDIR=/tmp # memory is faster
 work=$(mktemp -d "$TMPDIR/perrin-faults.XX""XXXX")
@@ -46,14 +47,14 @@ output: {trajectory: {every: ${EVERY:-0.05}}, checkpoint_every: ${CHECKPOINT_EVE
 END
 }
 
+# `launch DIR &` makes $! the process itself; `start DIR` waits for it.
 if is_perrin; then
     run_file >"$work/run.yaml"
-    # Without gnuplot there are no figures, which the faults are not about and which take long.
-    mkdir "$work/bin"
-    start() { "$PROGRAM" run "$work/run.yaml" -o "$1" --threads "${THREADS:-1}" --quiet; }
+    launch() { exec "$PROGRAM" run "$work/run.yaml" -o "$1" --threads "${THREADS:-1}" --quiet; }
 else
-    start() { "$PROGRAM" "$1" "${LENGTH:-4}" "${PARTICLES:-50}" "${PAUSE:-0}"; }
+    launch() { exec "$PROGRAM" "$1" "${LENGTH:-4}" "${PARTICLES:-50}" "${PAUSE:-0}"; }
 fi
+start() { (launch "$1"); }
 
 same() {
     "$SAME" "$1/results.h5" "$2/results.h5" || return 1

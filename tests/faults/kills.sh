@@ -10,10 +10,9 @@ kills=0 chains=0
 while [ $kills -lt "$KILLS" ]; do
     rm -rf "$work/run"
     while :; do
-        start "$work/run" >"$work/out" 2>&1 &
+        launch "$work/run" >"$work/out" 2>&1 &
         process=$!
         pause 0.01 "${LATEST:-0.3}"
-        pkill -KILL -P $process 2>/dev/null
         kill -KILL $process 2>/dev/null
         code=0
         wait $process 2>/dev/null || code=$?

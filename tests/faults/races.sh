@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# races.sh PROGRAM SAME RACES: twelve processes start on one directory: exactly one runs, the
-# others exit with 73, and change not a byte of what is there.
+# races.sh PROGRAM SAME RACES: twelve processes start on one directory at once: exactly one runs,
+# the others exit with 73, and change not a byte of what is there. The run must last a second, so
+# that it is not over when the last of them gets the processor.
 PROGRAM=$1 SAME=$2 RACES=$3
 . "$(dirname "$0")/common.sh"
 STARTERS=12
@@ -14,21 +15,22 @@ start "$work/reference" >"$work/out" 2>&1 || fail "the undisturbed run: $(cat "$
 
 race=1
 while [ $race -le "$RACES" ]; do
-    rm -rf "$work/run" "$work"/code.*
+    rm -rf "$work/run" "$work/go" "$work"/code.*
     starter=1
     while [ $starter -le $STARTERS ]; do
         (
             code=0
+            until [ -e "$work/go" ]; do sleep 0.01; done
             start "$work/run" >"$work/out.$starter" 2>&1 || code=$?
             echo $code >"$work/code.$starter"
         ) &
         starter=$((starter + 1))
     done
+    touch "$work/go"
     wait
     won=$(cat "$work"/code.* | grep -c '^0$')
     lost=$(cat "$work"/code.* | grep -c '^73$')
-    # A late starter finds the directory free again, and resumes a finished run: it changes nothing.
-    [ "$won" -ge 1 ] && [ $((won + lost)) -eq $STARTERS ] ||
+    [ "$won" -eq 1 ] && [ "$lost" -eq $((STARTERS - 1)) ] ||
         fail "race $race: $won ran, $lost were locked out of $STARTERS"
     same "$work/run" "$work/reference" || fail "race $race: other data"
     race=$((race + 1))
@@ -36,18 +38,17 @@ done
 
 # One holder, stopped in the middle; then eleven others at once.
 rm -rf "$work/run"
-start "$work/run" >"$work/out" 2>&1 &
+launch "$work/run" >"$work/out" 2>&1 &
 holder=$!
 until [ -s "$work/run/perrin.lock" ] && [ -e "$work/run/trajectory" ]; do sleep 0.01; done
-child=$(pgrep -P $holder || echo $holder)
-kill -STOP $child
+kill -STOP $holder
 contents "$work/run" >"$work/before"
 starter=2
 while [ $starter -le $STARTERS ]; do
     (
         code=0
         start "$work/run" >"$work/out.$starter" 2>&1 || code=$?
-        [ $code -eq 73 ] && grep -q "in use by .*process $child on" "$work/out.$starter" ||
+        [ $code -eq 73 ] && grep -q "in use by .*process $holder on" "$work/out.$starter" ||
             echo "exit code $code: $(cat "$work/out.$starter")" >>"$work/wrong"
     ) &
     processes="${processes:-} $!"
@@ -55,7 +56,7 @@ while [ $starter -le $STARTERS ]; do
 done
 wait $processes
 contents "$work/run" >"$work/after"
-kill -CONT $child
+kill -CONT $holder
 [ ! -e "$work/wrong" ] || fail "a loser: $(cat "$work/wrong")"
 cmp -s "$work/before" "$work/after" || fail "the losers changed something"
 wait $holder || fail "the holder failed: $(cat "$work/out")"
