@@ -73,7 +73,6 @@ while [ $call -le "$calls" ]; do
     strike $call ENOSPC forever
     if ! is_perrin || [ $((call % 5)) -eq 0 ]; then
         strike $call EDQUOT ""
-        strike $call EIO forever
         strike $call EINTR ""
         strike $call SHORT ""
     fi
