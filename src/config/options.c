@@ -397,7 +397,7 @@ static Status fail_unknown(const OptionMap *options, const Node *node, const cha
     const size_t nearest = nearest_word(node->key, known.pointers, known.count);
     const bool near = nearest < known.count;
     const bool slip = near && word_distance(node->key, known.names[nearest]) == 1;
-    char home[SECTION_PATH_SIZE];
+    char home[SECTION_HOME_SIZE];
     if (!slip && section_of_key(node->key, home))
         return tree_fail(node, "unknown key '%s' in %s; it belongs in %s", shown, options->name,
                          home);

@@ -98,11 +98,11 @@ static bool has_key(const OptionTable *table, const char *key) {
     return false;
 }
 
-bool section_of_key(const char *key, char home[SECTION_PATH_SIZE]) {
+bool section_of_key(const char *key, char home[SECTION_HOME_SIZE]) {
     for (size_t i = 0; i < section_count(); i++) {
         const Section section = section_at(i);
         if (!section.table || !has_key(section.table, key)) continue;
-        snprintf(home, SECTION_PATH_SIZE, "%s%s%s",
+        snprintf(home, SECTION_HOME_SIZE, "%s%s%s",
                  section.path[0] ? section.path : "the top level",
                  section.method ? " with method: " : "", section.method ? section.method : "");
         return true;

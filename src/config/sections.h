@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-enum { SECTION_PATH_SIZE = 96 };
+enum { SECTION_PATH_SIZE = 96, SECTION_HOME_SIZE = 192 };
 
 typedef struct Section {
     char path[SECTION_PATH_SIZE]; // "system.species.NAME", "observe.pressure"; "" for the top
@@ -20,7 +20,7 @@ size_t section_count(void);
 Section section_at(size_t index);
 
 // Where a key belongs, as "system" or "dynamics with method: newtonian"; false if nowhere.
-bool section_of_key(const char *key, char home[SECTION_PATH_SIZE]);
+bool section_of_key(const char *key, char home[SECTION_HOME_SIZE]);
 
 // What to say to a word of other engines, drives and theories that this version does not have;
 // NULL for a word that no version knows.
