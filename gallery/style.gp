@@ -5,7 +5,6 @@ set datafile separator ","
 set datafile missing "nan"
 set key top left Left reverse samplen 2
 set border 31 linewidth 1
-set tics in mirror
 set grid linecolor rgb "#e4e4e4" linetype 1 linewidth 0.5
 set linetype 1 linecolor rgb "#1b6ca8" linewidth 1.6 pointtype 7 pointsize 0.7
 set linetype 2 linecolor rgb "#c44e2b" linewidth 1.6 pointtype 5 pointsize 0.7

@@ -8,6 +8,6 @@ set ylabel "probability density"
 set xrange [-5:5]
 set yrange [1e-6:1]
 set key top left
-plot maxwell(x) with lines linetype 5 title "Maxwell", \
-     "newton-light.csv" using 1:($2 > 0 ? $2 : NaN):3 with yerrorbars linetype 1 title "m = 1", \
-     "newton-heavy.csv" using 1:($2 > 0 ? $2 : NaN):3 with yerrorbars linetype 2 title "m = 4"
+plot "newton-light.csv" using 1:($2 > 0 ? $2 : NaN):3 with yerrorbars linetype 1 pointsize 0.45 title "m = 1", \
+     "newton-heavy.csv" using 1:($2 > 0 ? $2 : NaN):3 with yerrorbars linetype 2 pointsize 0.45 title "m = 4", \
+     maxwell(x) with lines linecolor rgb "black" linewidth 1 title "Maxwell"

@@ -8,7 +8,8 @@ set xrange [1e-5:3]
 set yrange [1e-6:20]
 set key bottom right noreverse
 # Ballistic flight: <v^2> t^2 = 2 t^2 in d sqrt(m/kT); t there is 2/Delta times t in d^2/D0.
-plot for [i = 1:3] 2*(x*2/(word("0.02 0.06 0.2", i) + 0))**2 with lines linecolor rgb "#bbbbbb" notitle, \
+interval(i) = word("0.02 0.06 0.2", i) + 0
+plot for [i = 1:3] (x < interval(i)**2 ? 2*(x*2/interval(i))**2 : NaN) with lines linecolor rgb "#999999" notitle, \
      4*x with lines linetype 5 title "4 D_0 t", \
      for [i = 1:3] word("0.02 0.06 0.2", i)."-msd-short.csv" using 1:2:3 with yerrorbars \
          linetype i title "interval ".word("0.02 0.06 0.2", i), \
