@@ -30,7 +30,7 @@ static Status print_results(const Results *results, ShowFormat format, const cha
 }
 
 static Status show(const Arguments *arguments) {
-    ShowFormat format;
+    ShowFormat format = SHOW_TABLE;
     TRY(choose_format(&format, arguments));
     Results *results = NULL;
     TRY(stored_results(&results, arguments->operand[0]));
