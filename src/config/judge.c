@@ -27,10 +27,17 @@ static const Node *nth(const Node *parent, size_t index) {
     return node;
 }
 
-// A module's own sentence, with the place.
-static Status placed(const Node *node, Status status) {
+// A module's own sentence, at the key that it begins with if that stands in `node` or the system,
+// else at `node`.
+static Status placed(const Node *root, const Node *node, Status status) {
     if (status != BAD_DATA) return status;
-    return tree_fail(node, "%s", status_sentence());
+    char key[NAME_SIZE] = "";
+    const char *sentence = status_sentence(), *equals = strstr(sentence, " = ");
+    if (equals && equals - sentence < NAME_SIZE) memcpy(key, sentence, (size_t)(equals - sentence));
+    const Node *system = tree_find(root, "system");
+    const Node *named = tree_find(node, key);
+    if (!named) named = tree_find(system, key);
+    return tree_fail(named ? named : node, "%s", sentence);
 }
 
 static Status judge_species(const Node *map, const System *system) {
@@ -91,7 +98,7 @@ static const char *what_packs(const System *system) {
     return size_ratio(system) == 1 ? "equal spheres" : "spheres of these sizes";
 }
 
-static Status judge_density(const Node *map, const System *system) {
+static Status judge_density(const Node *root, const Node *map, const System *system) {
     const Node *fraction = tree_find(map, "packing_fraction");
     const Node *density = tree_find(map, "number_density");
     if (fraction && density)
@@ -106,13 +113,13 @@ static Status judge_density(const Node *map, const System *system) {
         return tree_fail(given, "packing_fraction = %.6g%s exceeds %.6g, the densest packing of %s",
                          packing, fraction ? "" : ", which this number_density gives,", densest,
                          what_packs(system));
-    return placed(given, packing_check(system));
+    return placed(root, given, packing_check(system));
 }
 
 static Status judge_system(const Node *root, const System *system) {
     const Node *map = tree_find(root, "system");
     TRY(judge_species(tree_find(map, "species"), system));
-    TRY(judge_density(map, system));
+    TRY(judge_density(root, map, system));
     if (system->aspect.count == 0 || system->aspect.count == system->dimension) return OK;
     return tree_fail(place(map, "box", "aspect"),
                      "box.aspect has %d numbers; a box in %d dimensions has %d edges",
@@ -134,7 +141,7 @@ static Status judge_method(const Node *root, const Node *node, const Plan *plan,
     static const double TICKS_MOST = 1e18; // plan_clock has room for more
     const Node *own = tree_find(node, "dynamics");
     const PropagatorKind *kind = stage->dynamics.kind;
-    TRY(placed(own ? own : tree_find(root, "dynamics"),
+    TRY(placed(root, own ? own : tree_find(root, "dynamics"),
                kind->check(&stage->dynamics.settings, &plan->system)));
     const double tick = kind->tick(&stage->dynamics.settings, &plan->system);
     if (stage->time / tick < TICKS_MOST) return OK;
@@ -152,7 +159,7 @@ static Status judge_stage(const Node *root, const Plan *plan, size_t index) {
     for (size_t k = 0; k < stage->observation_count; k++) {
         const Observation *observation = &stage->observations[k];
         if (!observation->kind->check) continue;
-        TRY(placed(nth(tree_find(node, "observe"), k),
+        TRY(placed(root, nth(tree_find(node, "observe"), k),
                    observation->kind->check(&observation->settings, &plan->system, &clock)));
     }
     return OK;
@@ -161,7 +168,7 @@ static Status judge_stage(const Node *root, const Plan *plan, size_t index) {
 Status judge_plan(const Node *root, const Plan *plan) {
     TRY(judge_system(root, &plan->system));
     for (size_t s = 0; s < plan->stage_count; s++) TRY(judge_stage(root, plan, s));
-    return placed(root, plan_check(plan));
+    return placed(root, root, plan_check(plan));
 }
 
 Status judge_memory(const Node *root, const Plan *plan) {
