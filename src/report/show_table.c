@@ -142,6 +142,7 @@ void show_table(Text *text, const Results *results, const Selection *selection) 
     }
     for (size_t i = 0; i < results->series_count; i++) {
         if (!selects_series(selection, &results->series[i])) continue;
+        if (text->length > 0) text_put(text, "\n");
         table_of_points(text, results, &results->series[i]);
     }
 }
