@@ -19,8 +19,14 @@ static const FigureKind kinds[] = {
 #undef FIGURE
 };
 
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+const FigureKind *figure_kind(size_t row) {
+    return row < KINDS ? &kinds[row] : NULL;
+}
+
 const FigureKind *figure_kind_of(const ResultSeries *series) {
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+    for (size_t i = 0; i < KINDS; i++) {
         if (strcmp(kinds[i].observable, series->observable) == 0) return &kinds[i];
     }
     return NULL;
@@ -41,7 +47,7 @@ static size_t axis_to_draw_along(const ResultSeries *series) {
 }
 
 static bool stands_behind_another(const ResultSeries *series) {
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+    for (size_t i = 0; i < KINDS; i++) {
         if (kinds[i].line && strcmp(kinds[i].line, series->observable) == 0) return true;
     }
     return false;
@@ -160,8 +166,9 @@ bool figure_is_dense(const Figure *figure) {
 
 void figure_caption(Text *text, const Figure *figure) {
     const Results *results = figure->results;
-    const bool own = figure->kind && figure->kind->about;
-    text_put(text, own ? figure->kind->about : figure->series->about);
+    const FigureKind *kind = figure->kind;
+    notation_unit(text, kind && kind->about ? kind->about : figure->series->about);
+    if (figure->line && kind->about_line) text_add(text, " %s", kind->about_line);
     if (results->replicas > 1) {
         text_add(text, " Mean over %zu replicas; %s: standard error of the mean.",
                  results->replicas, figure_is_dense(figure) ? "bands" : "bars");

@@ -22,9 +22,11 @@ typedef struct FigureKind {
     const char *ratio; // symbol of value/line, in a panel below
     const char *level; // a scalar of the stage, drawn as a horizontal line
     const char *level_title;
-    const char *about; // what is to be seen, a sentence for the caption
+    const char *about;      // what is to be seen, a sentence for the caption
+    const char *about_line; // and about the line, where there is one
 } FigureKind;
 
+const FigureKind *figure_kind(size_t row);                    // of figures.def; NULL past the last
 const FigureKind *figure_kind_of(const ResultSeries *series); // NULL for the plain rule
 
 // It has an axis of numbers to draw along, and is not drawn behind another.

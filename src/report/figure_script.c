@@ -71,7 +71,7 @@ static void put_looks(Text *script, const Figure *figure) {
     for (size_t c = 0; c < figure->curve_count; c++) {
         const size_t look = look_of(figure, c);
         text_add(script,
-                 "set linetype %zu linecolor rgb '%s' linewidth 1.6 pointtype %d pointsize 0.6\n",
+                 "set linetype %zu linecolor rgb '%s' linewidth 1.6 pointtype %d pointsize 0.7\n",
                  look, PALETTE[look - 1], MARKS[look - 1]);
     }
 }
@@ -81,14 +81,14 @@ static void put_head(Text *script, const Figure *figure) {
         script,
         "# Draws %s.svg from %s.csv: gnuplot %s.gp\n"
         "set encoding utf8\n"
-        "set terminal svg size 760,%d enhanced font 'Helvetica,Arial,sans-serif,16' name '%s'\n"
+        "set terminal svg size 760,%d enhanced font 'Helvetica,Arial,sans-serif,18' name '%s'\n"
         "set output '%s.svg'\n"
         "set datafile separator ','\n"
         "data = '%s.csv'\n"
         "set border linewidth 1.2\n"
         "set tics scale 0.8\n"
         "set style fill transparent solid 0.25 noborder\n",
-        figure->name, figure->name, figure->name, has_ratio(figure) ? 680 : 460, figure->name,
+        figure->name, figure->name, figure->name, has_ratio(figure) ? 720 : 480, figure->name,
         figure->name, figure->name);
     put_looks(script, figure);
     const char *key = figure->kind && figure->kind->key ? figure->kind->key : "above";
@@ -196,7 +196,7 @@ static void put_references(Text *script, const Figure *figure) {
 // Two panels over one x axis; the places are fractions of the picture's height.
 static void put_panels(Text *script, const Figure *figure) {
     text_put(script, "set multiplot\n"
-                     "set lmargin at screen 0.13\nset rmargin at screen 0.97\n"
+                     "set lmargin at screen 0.145\nset rmargin at screen 0.97\n"
                      "set tmargin at screen 0.97\nset bmargin at screen 0.42\n"
                      "unset xlabel\nset format x ''\n"
                      "plot \\\n");

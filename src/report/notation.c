@@ -2,8 +2,6 @@
 // Rounding of values and errors as people write them.
 #include "report/notation.h"
 
-#include "base/number.h"
-
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -48,22 +46,21 @@ static void value_and_error(Text *text, double value, double error, int place) {
 
 void notation_estimate(Text *text, Estimate estimate) {
     static const double SMALL = 1e-4, LARGE = 1e6; // outside, with a power of ten
-    static const int DIGITS_OF_DOUBLE = 15;
+    static const int DIGITS = 10;                  // of what is exact
     const double value = estimate.value, error = estimate.error;
     if (!isfinite(value)) {
         text_put(text, "-");
         return;
     }
     if (!isfinite(error) || error <= 0.0) {
-        text_add(text, error == 0.0 ? "%.10g" : "%.6g", value);
+        text_add(text, "%.*g", error == 0.0 ? DIGITS : 6, value);
         return;
     }
     const double size = fmax(fabs(value), error);
     const int power = power_of_ten(size);
     int place = last_place(error);
-    if (place < power - DIGITS_OF_DOUBLE) {
-        char digits[NUMBER_SIZE];
-        text_put(text, number_write(digits, value));
+    if (place < power - DIGITS) {
+        text_add(text, "%.*g", DIGITS, value); // exact but for rounding
     } else if (size < SMALL || size >= LARGE) {
         const double scale = pow(10.0, power);
         value_and_error(text, value / scale, error / scale, place - power);

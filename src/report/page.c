@@ -125,7 +125,7 @@ static void put_reference(Text *page, const Results *results, const ResultScalar
     const Estimate value = results_scalar_estimate(results, scalar);
     const Estimate wanted = results_scalar_estimate(results, reference);
     text_put(page, "<td class=\"n\" title=\"");
-    html_words(page, reference->about);
+    html_unit(page, reference->about);
     text_add(page, "\">%.6g</td><td class=\"n\">", wanted.value);
     const double percent = 100 * (value.value / wanted.value - 1);
     const double deviations = (value.value - wanted.value) / value.error;
@@ -134,6 +134,15 @@ static void put_reference(Text *page, const Results *results, const ResultScalar
         text_add(page, " (%s%.1f σ)", sign(deviations), fabs(deviations));
     }
     text_put(page, "</td>");
+}
+
+// Species share what is said about them: it is said once.
+static bool says_it_again(const Results *results, const ResultScalar *scalar) {
+    for (const ResultScalar *before = results->scalars; before < scalar; before++) {
+        const bool same_stage = strcmp(before->stage, scalar->stage) == 0;
+        if (same_stage && strcmp(before->about, scalar->about) == 0) return true;
+    }
+    return false;
 }
 
 static void put_scalar(Text *page, const Results *results, const ResultScalar *scalar) {
@@ -147,7 +156,7 @@ static void put_scalar(Text *page, const Results *results, const ResultScalar *s
     text_put(page, "</td>");
     put_reference(page, results, scalar);
     text_add(page, "<td class=\"n\">%zu</td><td class=\"a\">", estimate.n);
-    html_words(page, scalar->about);
+    if (!says_it_again(results, scalar)) html_unit(page, scalar->about);
     text_put(page, "</td></tr>\n");
 }
 
@@ -187,7 +196,7 @@ static void put_counter(Text *page, const ResultCounter *counter) {
     const bool healthy = result_healthy(counter), judged = !isnan(counter->limit);
     text_put(page, "<tr><td>");
     html_name(page, counter->name);
-    text_add(page, "</td><td class=\"n\">%.6g</td><td class=\"n\">", counter->value);
+    text_add(page, "</td><td class=\"n\">%.10g</td><td class=\"n\">", counter->value);
     if (judged) text_add(page, "%g", counter->limit);
     text_add(page, "</td><td class=\"%s\">%s</td><td class=\"a\">",
              !judged   ? ""

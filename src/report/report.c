@@ -69,16 +69,27 @@ static void put_picture(Report *report, const ResultSeries *series) {
     text_put(&report->page, "</figcaption></figure>\n");
 }
 
-static void put_figures(Report *report) {
-    text_put(&report->page, "<h2>Figures</h2>\n<div class=\"figures\">\n");
+static void put_pictures(Report *report) {
     for (size_t i = 0; i < report->results->series_count; i++) {
         const ResultSeries *series = &report->results->series[i];
         if (picture_exists(report->results, series)) put_picture(report, series);
     }
+}
+
+static void put_figures_of(Report *report, const FigureKind *kind) {
     for (size_t i = 0; i < report->results->series_count; i++) {
         const ResultSeries *series = &report->results->series[i];
-        if (!picture_uses(series) && figure_exists(series)) put_figure(report, series);
+        if (figure_kind_of(series) != kind || picture_uses(series)) continue;
+        if (figure_exists(series)) put_figure(report, series);
     }
+}
+
+// The kinds in the order of their table, each for all stages; then what has no kind.
+static void put_figures(Report *report) {
+    text_put(&report->page, "<h2>Figures</h2>\n<div class=\"figures\">\n");
+    put_pictures(report);
+    for (size_t row = 0; figure_kind(row); row++) put_figures_of(report, figure_kind(row));
+    put_figures_of(report, NULL);
     text_put(&report->page, "</div>\n");
 }
 

@@ -48,6 +48,7 @@ END_TEST
 START_TEST(without_an_error_no_digits_are_claimed) {
     ck_assert_str_eq(written(3.14159265, NAN), "3.14159");
     ck_assert_str_eq(written(1000, 0), "1000");
+    ck_assert_str_eq(written(1 + 8e-15, 3e-15), "1"); // but for rounding
     ck_assert_str_eq(written(NAN, 1), "-");
     ck_assert_str_eq(written(INFINITY, NAN), "-");
 }
