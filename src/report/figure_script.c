@@ -197,12 +197,12 @@ static void put_references(Text *script, const Figure *figure) {
 static void put_panels(Text *script, const Figure *figure) {
     text_put(script, "set multiplot\n"
                      "set lmargin at screen 0.145\nset rmargin at screen 0.97\n"
-                     "set tmargin at screen 0.97\nset bmargin at screen 0.42\n"
+                     "set tmargin at screen 0.965\nset bmargin at screen 0.42\n"
                      "unset xlabel\nset format x ''\n"
                      "plot \\\n");
     put_curves(script, figure);
     put_references(script, figure);
-    text_put(script, "set tmargin at screen 0.39\nset bmargin at screen 0.10\n"
+    text_put(script, "set tmargin at screen 0.39\nset bmargin at screen 0.12\n"
                      "set format x '10^{%T}'\nunset logscale y\nset format y '%g'\n");
     put_x_label(script, figure);
     put_label(script, "y", figure->kind->ratio, "");

@@ -210,7 +210,7 @@ static void put_legend(Text *page, const View *view) {
             html_words(page, names->labels[s]);
         else
             text_add(page, "species %zu", s + 1);
-        text_put(page, " ");
+        text_put(page, s + 1 < count ? ", " : ": ");
     }
 }
 
