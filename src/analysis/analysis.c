@@ -14,7 +14,7 @@ Status derive_theory(Results *results, const char *stage, const System *system) 
     const char *unit = system->dimension == 2 ? "kT/d^2" : "kT/d^3";
     char of_factor[RESULT_TEXT], of_pressure[RESULT_TEXT];
     snprintf(of_factor, sizeof of_factor, "P V/(N kT) of the equation of state: %s.", theory.name);
-    snprintf(of_pressure, sizeof of_pressure, "Of the equation of state: %s.", theory.name);
+    snprintf(of_pressure, sizeof of_pressure, "P of the equation of state: %s.", theory.name);
     for (size_t replica = 0; replica < results->replicas; replica++) {
         TRY(results_put_scalar(results, stage, "compressibility_factor_theory", "", of_factor,
                                replica, theory.compressibility_factor));

@@ -168,7 +168,8 @@ void figure_caption(Text *text, const Figure *figure) {
     const Results *results = figure->results;
     const FigureKind *kind = figure->kind;
     notation_unit(text, kind && kind->about ? kind->about : figure->series->about);
-    if (figure->line && kind->about_line) text_add(text, " %s", kind->about_line);
+    if ((figure->line || figure->level) && kind->about_line)
+        text_add(text, " %s", kind->about_line);
     if (results->replicas > 1) {
         text_add(text, " Mean over %zu replicas; %s: standard error of the mean.",
                  results->replicas, figure_is_dense(figure) ? "bands" : "bars");

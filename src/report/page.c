@@ -178,6 +178,24 @@ static void put_stage(Text *page, const Results *results, const char *stage) {
     }
 }
 
+static bool first_to_say(const Results *results, size_t scalar) {
+    for (size_t i = 0; i < scalar; i++) {
+        if (strcmp(results->scalars[i].about, results->scalars[scalar].about) == 0) return false;
+    }
+    return true;
+}
+
+// Where the references come from.
+static void put_sources(Text *page, const Results *results) {
+    const char *before = " References: ";
+    for (size_t i = 0; i < results->scalar_count; i++) {
+        if (!is_reference(results->scalars[i].quantity) || !first_to_say(results, i)) continue;
+        text_put(page, before);
+        html_unit(page, results->scalars[i].about);
+        before = " ";
+    }
+}
+
 void page_numbers(Text *page, const Results *results) {
     if (results->scalar_count == 0) return;
     text_put(page, "<h2>Numbers</h2>\n<table>\n<tr><th>Quantity</th><th class=\"n\">Value</th>"
@@ -189,7 +207,9 @@ void page_numbers(Text *page, const Results *results) {
     text_put(page,
              "</table>\n<p class=\"under\">In brackets the standard error over the n replicas, "
              "in units of the last digits; σ is that error. Lengths in units of d, energies "
-             "in kT, times in d²/D₀.</p>\n");
+             "in kT, times in d²/D₀, in Newtonian stages in d √(m/kT).");
+    put_sources(page, results);
+    text_put(page, "</p>\n");
 }
 
 static void put_counter(Text *page, const ResultCounter *counter) {

@@ -13,7 +13,7 @@
 
 enum { X, Y, Z, DIAMETER, SPECIES, COLUMNS }; // of the snapshot
 enum { PARTICLES_MOST = 6000 };               // of a page that is still quick to open
-static const double DEPTH = 3.0;              // of spheres, in d: what lies below is hidden
+static const double DEPTH = 4.0;              // of spheres, in d: what lies below is hidden
 static const double WIDTH = 560.0;            // of the picture, in pixels
 
 typedef struct View {
