@@ -224,6 +224,7 @@ const PropagatorKind propagator_event_driven = {
     .options = {event_driven_rows, sizeof event_driven_rows / sizeof *event_driven_rows,
                 sizeof(EventDriven)},
     .check = event_driven_check,
+    .thermostatted = true,
     .tick = event_driven_tick,
     .flight_time = event_driven_flight,
     .ticks_per_step = event_driven_ticks,
