@@ -169,6 +169,7 @@ Status layout_check(Layout *layout, const Seal *seal, const char *path) {
     const uint64_t n = layout->particles, frames = layout->frames, size = seal->size;
     uint64_t all;
     const bool fits =
+        (layout->dimension == 2 || layout->dimension == 3) &&
         !__builtin_mul_overflow(n, frames, &all) && inside(0, layout->header, 1, size) &&
         inside(layout->species, n, 4, size) && inside(layout->diameter, n, 8, size) &&
         inside(layout->mass, n, 8, size) && inside(layout->position, all, 24, size) &&

@@ -34,7 +34,6 @@ static System some_system(int64_t particles) {
         .dimension = 3,
         .particles = particles,
         .packing_fraction = 0.2,
-        .aspect = {1, 1, 1},
         .species_count = 2,
         .species =
             {{.name = "a", .shape = SHAPE_SPHERE, .diameter = 1, .mass = 1, .fraction = 0.5},
