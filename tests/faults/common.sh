@@ -43,7 +43,7 @@ dynamics: {method: event-driven, thermostat_interval: 0.1}
 protocol:
   - {stage: quiescent, time: ${LENGTH:-0.2}, observe: [mean_squared_displacement, pressure]}
 ensemble: {replicas: 2, seed: 7}
-output: {trajectory: {every: ${EVERY:-0.05}}, checkpoint_every: ${CHECKPOINT_EVERY:-0 s}}
+output: {trajectory: {every: ${EVERY:-0.05}}, checkpoint_every: ${CHECKPOINT_EVERY:-0.01 s}}
 END
 }
 
