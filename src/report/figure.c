@@ -53,8 +53,16 @@ static bool stands_behind_another(const ResultSeries *series) {
     return false;
 }
 
-bool figure_exists(const ResultSeries *series) {
-    return axis_to_draw_along(series) != NO_AXIS && !stands_behind_another(series);
+static bool has_numbers(const Results *results, const ResultSeries *series) {
+    for (size_t i = 0; i < series->size * results->replicas; i++) {
+        if (isfinite(series->values[i])) return true;
+    }
+    return false;
+}
+
+bool figure_exists(const Results *results, const ResultSeries *series) {
+    if (axis_to_draw_along(series) == NO_AXIS || stands_behind_another(series)) return false;
+    return has_numbers(results, series);
 }
 
 static bool same_shape(const ResultSeries *a, const ResultSeries *b) {

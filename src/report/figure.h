@@ -29,8 +29,8 @@ typedef struct FigureKind {
 const FigureKind *figure_kind(size_t row);                    // of figures.def; NULL past the last
 const FigureKind *figure_kind_of(const ResultSeries *series); // NULL for the plain rule
 
-// It has an axis of numbers to draw along, and is not drawn behind another.
-bool figure_exists(const ResultSeries *series);
+// It has an axis of numbers to draw along, some numbers, and is not drawn behind another.
+bool figure_exists(const Results *results, const ResultSeries *series);
 
 enum { FIGURE_CURVES = 8, FIGURE_NAME = 2 * RESULT_NAME };
 

@@ -145,13 +145,14 @@ static const char *title_of(const Figure *figure, size_t curve) {
     return title[0] || alone ? title : "simulation";
 }
 
-// A point of which the error is unknown is drawn without a bar: valid(column) asks.
+// A point of which the error is unknown is drawn without a bar: valid(3) asks. It would be skipped
+// if the error were called $3.
 static void put_curves(Text *script, const Figure *figure) {
     for (size_t c = 0; c < figure->curve_count; c++) {
         char value[32], error[64];
         const size_t column = value_column(figure, c);
         snprintf(value, sizeof value, "$%zu", column);
-        snprintf(error, sizeof error, "valid(%zu) ? $%zu : 0", column + 1, column + 1);
+        snprintf(error, sizeof error, "valid(%zu) ? column(%zu) : 0", column + 1, column + 1);
         put_curve(script, figure, c, value, error, title_of(figure, c));
     }
 }
@@ -161,7 +162,7 @@ static void put_ratios(Text *script, const Figure *figure) {
         char value[32], error[64];
         const size_t column = value_column(figure, c);
         snprintf(value, sizeof value, "$%zu/$%zu", column, column + 2);
-        snprintf(error, sizeof error, "valid(%zu) ? $%zu/$%zu : 0", column + 1, column + 1,
+        snprintf(error, sizeof error, "valid(%zu) ? column(%zu)/$%zu : 0", column + 1, column + 1,
                  column + 2);
         put_curve(script, figure, c, value, error, "");
     }

@@ -53,7 +53,7 @@ static void put_verdict(Text *page, const Results *results) {
     }
     text_put(page, "<p class=\"verdict bad\">A health limit is broken: ");
     html_name(page, broken->name);
-    text_add(page, " = %g exceeds %g. Do not trust these numbers.</p>\n", broken->value,
+    text_add(page, " = %g, where %g is the limit. Do not trust these numbers.</p>\n", broken->value,
              broken->limit);
 }
 

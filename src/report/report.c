@@ -80,7 +80,7 @@ static void put_figures_of(Report *report, const FigureKind *kind) {
     for (size_t i = 0; i < report->results->series_count; i++) {
         const ResultSeries *series = &report->results->series[i];
         if (figure_kind_of(series) != kind || picture_uses(series)) continue;
-        if (figure_exists(series)) put_figure(report, series);
+        if (figure_exists(report->results, series)) put_figure(report, series);
     }
 }
 

@@ -248,13 +248,24 @@ START_TEST(without_gnuplot_the_page_is_written_and_says_what_it_lacks) {
 }
 END_TEST
 
+START_TEST(points_without_an_error_are_drawn_all_the_same) {
+    const Place place = new_place();
+    Results *results = sample();
+    double *values = results->series[0].values;
+    for (size_t i = 0; i < results->series[0].size; i++) values[i] = NAN; // of the first replica
+    ck_assert_msg(report_write(results, place.directory) == OK, "%s", status_sentence());
+    results_free(results);
+    remove_place(&place);
+}
+END_TEST
+
 START_TEST(a_broken_limit_is_the_first_thing_a_reader_sees) {
     const Place place = new_place();
     Results *results = sample();
     results_put_health(results, "overlaps", "pairs", 0, 3);
     report_write(results, place.directory);
     Text page = read_page(&place);
-    const char *verdict = strstr(page.bytes, "A health limit is broken: overlaps = 3 exceeds 0");
+    const char *verdict = strstr(page.bytes, "A health limit is broken: overlaps = 3,");
     ck_assert_ptr_nonnull(verdict);
     ck_assert(verdict < strstr(page.bytes, "<table>"));
     text_free(&page);
@@ -285,7 +296,7 @@ START_TEST(an_observable_without_a_row_is_drawn_by_the_plain_rule) {
                  {.name = "time", .unit = "d^2/D0", .count = 3, .values = t}}};
     const double values[] = {1, 2, 3, 4, 5, NAN};
     results_put_series(results, &shape, 0, values);
-    ck_assert(figure_exists(&results->series[0]));
+    ck_assert(figure_exists(results, &results->series[0]));
     const Figure figure = figure_of(results, &results->series[0]);
     Text csv = {0};
     figure_numbers(&csv, &figure);
@@ -320,6 +331,7 @@ int main(void) {
     tcase_add_test(tests, an_unknown_or_ambiguous_name_is_told_with_the_names_there_are);
     tcase_add_test(tests, the_page_is_whole_in_itself_and_escapes_what_it_is_told);
     tcase_add_test(tests, without_gnuplot_the_page_is_written_and_says_what_it_lacks);
+    tcase_add_test(tests, points_without_an_error_are_drawn_all_the_same);
     tcase_add_test(tests, a_broken_limit_is_the_first_thing_a_reader_sees);
     tcase_add_test(tests, where_nothing_can_be_written_the_sentence_names_the_path);
     tcase_add_test(tests, an_observable_without_a_row_is_drawn_by_the_plain_rule);
