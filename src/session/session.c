@@ -59,15 +59,22 @@ static Status take_plan(Session *session) {
     return status;
 }
 
+// Asked before the directory is made: a wish that cannot be granted leaves nothing behind.
+static bool has_plan(const char *directory) {
+    char path[4096];
+    const int length = snprintf(path, sizeof path, "%s/plan.yaml", directory);
+    return length > 0 && (size_t)length < sizeof path && access(path, F_OK) == 0;
+}
+
 static Status begin(Session *session, const SessionWishes *wishes) {
     TRY(plan_check(session->plan));
+    if (wishes->must_resume && !has_plan(wishes->directory)) {
+        return status_fail(BAD_USAGE, "nothing to resume in %s", wishes->directory);
+    }
     TRY(config_write(session->plan, &session->plan_text));
     TRY(store_open(&session->store, wishes->directory));
     store_ignore_signals();
     TRY(take_plan(session));
-    if (wishes->must_resume && !session->resumes) {
-        return status_fail(BAD_USAGE, "nothing to resume in %s", wishes->directory);
-    }
     TRY(store_log(session->store, "perrin %s (%s) %s, %d threads", version_number(),
                   version_commit(), session->resumes ? "resumes" : "starts", wishes->threads));
     TRY(ensemble_create(&session->ensemble, session->plan, session->store, wishes->threads));
