@@ -12,13 +12,18 @@
 
 enum { NOBODY = -1, CELLS_LEAST = 3 };
 
+// Which cell along each axis, and of which periodic image of the box.
+typedef struct Cell {
+    int at[3], box[3];
+} Cell;
+
 typedef struct Particle {
     double position[3]; // unfolded, at its clock
     double velocity[3];
     double clock; // since the interval began
     double radius, mass;
-    uint64_t turns;     // changes of velocity
-    int64_t cell[3];    // unfolded, so that crossing the box's edge is nothing special
+    uint64_t turns; // changes of velocity
+    Cell cell;
     int next, previous; // in its cell
 
     double time;            // of its next event
@@ -51,21 +56,23 @@ static size_t cell_count(const Reference *reference) {
     return (size_t)reference->cells[0] * (size_t)reference->cells[1] * (size_t)reference->cells[2];
 }
 
-static int64_t folded(int64_t cell, int cells) {
-    return ((cell % cells) + cells) % cells;
+static int *first_of_cell(const Reference *reference, const Cell *cell) {
+    const int *cells = reference->cells, *at = cell->at;
+    return reference->first +
+           ((size_t)at[2] * (size_t)cells[1] + (size_t)at[1]) * (size_t)cells[0] + at[0];
 }
 
-static int *first_of_cell(const Reference *reference, const int64_t cell[3]) {
-    int64_t index = 0;
-    for (int a = reference->dimension - 1; a >= 0; a--) {
-        index = index * reference->cells[a] + folded(cell[a], reference->cells[a]);
-    }
-    return reference->first + index;
+// The next cell up or down along an axis, through the edge of the box if need be.
+static void step(const Reference *reference, Cell *cell, int axis, int direction) {
+    const int cells = reference->cells[axis];
+    cell->at[axis] += direction;
+    if (cell->at[axis] < 0) cell->at[axis] += cells, cell->box[axis]--;
+    if (cell->at[axis] >= cells) cell->at[axis] -= cells, cell->box[axis]++;
 }
 
 static void enter_cell(Reference *reference, int i) {
     Particle *particle = &reference->particles[i];
-    int *first = first_of_cell(reference, particle->cell);
+    int *first = first_of_cell(reference, &particle->cell);
     particle->previous = NOBODY;
     particle->next = *first;
     if (*first != NOBODY) reference->particles[*first].previous = i;
@@ -78,7 +85,7 @@ static void leave_cell(Reference *reference, int i) {
         reference->particles[particle->next].previous = particle->previous;
     }
     if (particle->previous == NOBODY) {
-        *first_of_cell(reference, particle->cell) = particle->next;
+        *first_of_cell(reference, &particle->cell) = particle->next;
     } else {
         reference->particles[particle->previous].next = particle->next;
     }
@@ -90,12 +97,11 @@ static double position_at(const Particle *particle, int axis, double time) {
     return particle->position[axis] + particle->velocity[axis] * (time - particle->clock);
 }
 
-// r = r_i - r_j at `now`, j displaced by whole boxes.
-static void separation(const Reference *reference, int i, int j, const int64_t boxes[3], double now,
-                       double r[3]) {
+// r = r_i - r_j at the clock of i, j displaced by whole boxes.
+static void separation(const Reference *reference, int i, int j, const int boxes[3], double r[3]) {
+    const Particle *one = &reference->particles[i], *other = &reference->particles[j];
     for (int a = 0; a < reference->dimension; a++) {
-        r[a] = position_at(&reference->particles[i], a, now) -
-               position_at(&reference->particles[j], a, now) -
+        r[a] = one->position[a] - position_at(other, a, one->clock) -
                (double)boxes[a] * reference->state->box.edge[a];
     }
 }
@@ -116,15 +122,14 @@ static double time_to_meeting(int dimension, const double r[3], const double v[3
     return discriminant < 0 ? INFINITY : c / (-b + sqrt(discriminant));
 }
 
-static void consider_meeting(Reference *reference, int i, int j, const int64_t boxes[3],
-                             double now) {
+static void consider_meeting(Reference *reference, int i, int j, const int boxes[3]) {
     Particle *one = &reference->particles[i];
     const Particle *other = &reference->particles[j];
     double r[3], v[3];
-    separation(reference, i, j, boxes, now, r);
+    separation(reference, i, j, boxes, r);
     for (int a = 0; a < reference->dimension; a++) v[a] = one->velocity[a] - other->velocity[a];
     const double contact = one->radius + other->radius;
-    const double time = now + time_to_meeting(reference->dimension, r, v, contact);
+    const double time = one->clock + time_to_meeting(reference->dimension, r, v, contact);
     if (time >= one->time) return;
     one->time = time;
     one->partner = j;
@@ -136,9 +141,10 @@ static void consider_crossings(Reference *reference, int i) {
     for (int a = 0; a < reference->dimension; a++) {
         const double speed = particle->velocity[a];
         if (speed == 0) continue;
-        const int64_t wall = particle->cell[a] + (speed > 0);
-        const double distance = (double)wall * reference->cell_edge[a] - particle->position[a];
-        const double time = particle->clock + fmax(distance / speed, 0);
+        const double wall = particle->cell.box[a] * reference->state->box.edge[a] +
+                            (particle->cell.at[a] + (speed > 0)) * reference->cell_edge[a];
+        const double distance = wall - particle->position[a];
+        const double wait = distance / speed, time = particle->clock + (wait > 0 ? wait : 0);
         if (time >= particle->time) continue;
         particle->time = time;
         particle->partner = NOBODY;
@@ -148,40 +154,38 @@ static void consider_crossings(Reference *reference, int i) {
 }
 
 // The k-th of the 3^dimension neighbours of a cell, or of a box, itself among them.
-static void neighbour(int k, int64_t offset[3]) {
+static void neighbour(int k, int offset[3]) {
     for (int a = 0; a < 3; a++, k /= 3) offset[a] = k % 3 - 1;
 }
 
-static void consider_cell(Reference *reference, int i, const int64_t offset[3], double now) {
-    int64_t cell[3] = {0, 0, 0}, boxes[3] = {0, 0, 0};
-    for (int a = 0; a < reference->dimension; a++) {
-        cell[a] = reference->particles[i].cell[a] + offset[a];
-    }
-    for (int j = *first_of_cell(reference, cell); j != NOBODY; j = reference->particles[j].next) {
-        if (j == i) continue;
-        for (int a = 0; a < reference->dimension; a++) {
-            boxes[a] = (cell[a] - reference->particles[j].cell[a]) / reference->cells[a];
-        }
-        consider_meeting(reference, i, j, boxes, now);
+static void consider_cell(Reference *reference, int i, const int offset[3], int after) {
+    Cell cell = reference->particles[i].cell;
+    for (int a = 0; a < reference->dimension; a++) step(reference, &cell, a, offset[a]);
+    for (int j = *first_of_cell(reference, &cell); j != NOBODY; j = reference->particles[j].next) {
+        if (j == i || j <= after) continue;
+        int boxes[3];
+        for (int a = 0; a < 3; a++) boxes[a] = cell.box[a] - reference->particles[j].cell.box[a];
+        consider_meeting(reference, i, j, boxes);
     }
 }
 
 // The nearest image and those around it.
-static void consider_everyone(Reference *reference, int i, const int64_t offset[3], double now) {
-    const int64_t none[3] = {0, 0, 0};
-    for (int j = 0; j < reference->count; j++) {
+static void consider_everyone(Reference *reference, int i, const int offset[3], int after) {
+    const int none[3] = {0, 0, 0};
+    for (int j = after + 1; j < reference->count; j++) {
         if (j == i) continue;
         double r[3];
-        int64_t boxes[3] = {0, 0, 0};
-        separation(reference, i, j, none, now, r);
+        int boxes[3] = {0, 0, 0};
+        separation(reference, i, j, none, r);
         for (int a = 0; a < reference->dimension; a++) {
-            boxes[a] = (int64_t)rint(r[a] / reference->state->box.edge[a]) + offset[a];
+            boxes[a] = (int)rint(r[a] / reference->state->box.edge[a]) + offset[a];
         }
-        consider_meeting(reference, i, j, boxes, now);
+        consider_meeting(reference, i, j, boxes);
     }
 }
 
-static void predict(Reference *reference, int i, double now) {
+// The next event of particle i from its clock on, among the particles whose ids are above `after`.
+static void predict(Reference *reference, int i, int after) {
     Particle *particle = &reference->particles[i];
     particle->time = INFINITY;
     particle->partner = NOBODY;
@@ -189,12 +193,12 @@ static void predict(Reference *reference, int i, double now) {
     const int neighbours = reference->dimension == 2 ? 9 : 27;
     for (int k = 0; k < neighbours; k++) {
         // In two dimensions the nine of the middle layer.
-        int64_t offset[3];
+        int offset[3];
         neighbour(reference->dimension == 2 ? k + 9 : k, offset);
         if (reference->all_pairs) {
-            consider_everyone(reference, i, offset, now);
+            consider_everyone(reference, i, offset, after);
         } else {
-            consider_cell(reference, i, offset, now);
+            consider_cell(reference, i, offset, after);
         }
     }
 }
@@ -238,8 +242,8 @@ static void sift_down(Reference *reference, int place) {
     put(reference, place, i);
 }
 
-static void predict_and_enter(Reference *reference, int i, double now) {
-    predict(reference, i, now);
+static void predict_and_enter(Reference *reference, int i) {
+    predict(reference, i, NOBODY);
     sift_up(reference, reference->place[i]);
     sift_down(reference, reference->place[i]);
 }
@@ -267,9 +271,9 @@ static void note(Reference *reference, int i, int j, double time) {
 
 // r_i - r_j of partners that touch: the nearest image. How deep they overlap is kept.
 static void contact_vector(Reference *reference, int i, int j, double r[3]) {
-    const int64_t none[3] = {0, 0, 0};
+    const int none[3] = {0, 0, 0};
     const Particle *one = &reference->particles[i], *other = &reference->particles[j];
-    separation(reference, i, j, none, one->clock, r);
+    separation(reference, i, j, none, r);
     box_nearest_image(&reference->state->box, r);
     double r2 = 0;
     for (int a = 0; a < reference->dimension; a++) r2 += r[a] * r[a];
@@ -281,7 +285,6 @@ static void contact_vector(Reference *reference, int i, int j, double r[3]) {
 // 2.5, with the square that its denominator lacks in print).
 static void collide(Reference *reference, int i, int j, double time) {
     Particle *one = &reference->particles[i], *other = &reference->particles[j];
-    move_to(reference, one, time);
     move_to(reference, other, time);
     double r[3] = {0, 0, 0}, b = 0, r2 = 0;
     contact_vector(reference, i, j, r);
@@ -306,7 +309,7 @@ static void collide(Reference *reference, int i, int j, double time) {
 static void cross(Reference *reference, int i) {
     Particle *particle = &reference->particles[i];
     leave_cell(reference, i);
-    particle->cell[particle->axis] += particle->direction;
+    step(reference, &particle->cell, particle->axis, particle->direction);
     enter_cell(reference, i);
 }
 
@@ -315,16 +318,16 @@ static void next_event(Reference *reference) {
     Particle *particle = &reference->particles[i];
     const double now = particle->time;
     const int partner = particle->partner;
+    move_to(reference, particle, now);
     if (partner == NOBODY) {
-        move_to(reference, particle, now);
         cross(reference, i);
     } else if (reference->particles[partner].turns != particle->partner_turns) {
         reference->tally.stale++;
     } else {
         collide(reference, i, partner, now);
-        predict_and_enter(reference, partner, now);
+        predict_and_enter(reference, partner);
     }
-    predict_and_enter(reference, i, now);
+    predict_and_enter(reference, i);
 }
 
 // ---- Intervals
@@ -350,7 +353,8 @@ static void take_from_state(Reference *reference) {
         for (int a = 0; a < reference->dimension; a++) {
             particle->position[a] = state->position[a][i];
             particle->velocity[a] = state->velocity[a][i];
-            particle->cell[a] = (int64_t)floor(particle->position[a] / reference->cell_edge[a]);
+            const int cell = (int)(particle->position[a] / reference->cell_edge[a]);
+            particle->cell.at[a] = cell < reference->cells[a] ? cell : reference->cells[a] - 1;
         }
         enter_cell(reference, i);
     }
@@ -376,7 +380,7 @@ static void advance_one(Reference *reference) {
     if (reference->thermostatted) draw_velocities(reference);
     take_from_state(reference);
     for (int i = 0; i < reference->count; i++) {
-        predict(reference, i, 0);
+        predict(reference, i, i); // each pair once; whatever is stale is looked at in full
         put(reference, i, i);
     }
     for (int place = reference->count / 2; place-- > 0;) sift_down(reference, place);
