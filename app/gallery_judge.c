@@ -189,7 +189,7 @@ static Status judge_row(const Judgement *judgement, size_t row, FILE *table, FIL
     fprintf(table, "%s,%s,%.10g,%s,%.10g,%.10g,%.10g,%.10g,%.10g,%.3g,%s,%s,\"%s\"\n", want.subject,
             at.curve, at.x, want.measure, value, error, want.expected, want.uncertainty,
             want.tolerance, deviation, verdict, kind, csv_cell(csv, row, "source"));
-    fprintf(out, "%-20s %-24s %11.6g %8.2g %11.6g %8.2g %9.2g %6.1f  %-6s  %s\n", want.subject,
+    fprintf(out, "%-20s %-24s %11.6g %8.2g %11.6g %8.2g %9.2g %6.1f  %-7s  %s\n", want.subject,
             want.measure, value, error, want.expected, want.uncertainty, want.tolerance, deviation,
             verdict, kind);
     return OK;
@@ -201,8 +201,8 @@ static Status judge_rows(const Judgement *judgement, FILE *out, size_t *missed) 
     fputs("subject,curve,x,measure,value,error,expected,uncertainty,tolerance,deviation,verdict,"
           "kind,source\n",
           table);
-    fprintf(out, "%-20s %-24s %11s %8s %11s %8s %9s %6s  %-6s  %s\n", "subject", "measure", "value",
-            "error", "expected", "uncert.", "tolerance", "dev/se", "", "kind");
+    fprintf(out, "%-20s %-24s %11s %8s %11s %8s %9s %6s  %-7s  %s\n", "subject", "measure", "value",
+            "error", "expected", "uncert.", "tolerance", "dev/se", "verdict", "kind");
     Status status = OK;
     for (size_t row = 0; row < judgement->expected->rows && status == OK; row++) {
         status = judge_row(judgement, row, table, out, missed);
