@@ -27,7 +27,7 @@ typedef struct OptionReals {
 } OptionReals;
 
 typedef struct Option {
-    const char *name; // a dot goes into a nested map: "times.first"
+    const char *name; // a dot goes into a nested map: "times.first"; its rows stand together
     OptionType type;
     size_t offset;      // of the field in the settings struct
     double fallback;    // default of a number, choice, boolean or duration

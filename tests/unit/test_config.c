@@ -67,6 +67,28 @@ START_TEST(a_written_plan_reads_back_equal) {
 }
 END_TEST
 
+START_TEST(a_plan_of_every_observable_reads_back_equal) {
+    char text[4096];
+    size_t length = (size_t)snprintf(text, sizeof text,
+                                     "system: {dimension: 2, particles: 100, packing_fraction: "
+                                     "0.5, species: {disc: {shape: disc}}}\n"
+                                     "dynamics: {method: event-driven}\n"
+                                     "protocol:\n  - stage: rest\n    time: 1\n    observe:\n");
+    for (size_t k = 0; observable_kinds[k]; k++) {
+        length += (size_t)snprintf(text + length, sizeof text - length, "      - %s\n",
+                                   observable_kinds[k]->name);
+    }
+    Plan *plan = plan_of(text, NULL);
+    char *written = NULL;
+    ck_assert_int_eq(config_write(plan, &written), OK);
+    Plan *again = plan_of(written, NULL);
+    assert_equal(plan, again);
+    memory_free(again);
+    memory_free(written);
+    memory_free(plan);
+}
+END_TEST
+
 START_TEST(values_arrive_where_they_belong) {
     Plan *plan = plan_of(mixture, NULL);
     ck_assert_str_eq(plan->title, "A \"mixture\" of Größe \\ and #: signs");
@@ -367,6 +389,7 @@ int main(void) {
     Suite *suite = suite_create("config");
     TCase *cases = tcase_create("run files");
     tcase_add_test(cases, a_written_plan_reads_back_equal);
+    tcase_add_test(cases, a_plan_of_every_observable_reads_back_equal);
     tcase_add_test(cases, values_arrive_where_they_belong);
     tcase_add_test(cases, settings_of_an_observable_come_from_stage_then_file_then_table);
     tcase_add_test(cases, a_stage_overrides_some_keys_of_the_dynamics);
