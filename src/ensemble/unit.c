@@ -52,7 +52,8 @@ static Status open_trajectory(Run *run) {
 static Status write_frames(Run *run) {
     if (!run->trajectory || !replica_frame_due(run->replica)) return OK;
     const State *state = replica_state(run->replica);
-    TRY(trajectory_write(run->trajectory, state, state->step, replica_time(run->replica)));
+    const double time = replica_recorded_time(run->replica);
+    TRY(trajectory_write(run->trajectory, state, state->step, time));
     replica_frame_taken(run->replica);
     return OK;
 }
@@ -78,13 +79,19 @@ static bool checkpoint_due(const Run *run) {
     return since >= run->shared->plan->output.checkpoint_every;
 }
 
-static void tell_start(Run *run) {
+static void tell_packing(Run *run) {
     Unit *unit = &run->shared->units[run->index];
     pthread_mutex_lock(&run->shared->mutex);
     unit->running = true;
-    unit->fraction = unit->fraction_at_start = replica_progress(run->replica);
     unit->stage = "packing";
     unit->stage_unit = "";
+    pthread_mutex_unlock(&run->shared->mutex);
+}
+
+static void tell_start(Run *run) {
+    Unit *unit = &run->shared->units[run->index];
+    pthread_mutex_lock(&run->shared->mutex);
+    unit->fraction = unit->fraction_at_start = replica_progress(run->replica);
     unit->packing_seconds = replica_packing(run->replica).seconds;
     pthread_mutex_unlock(&run->shared->mutex);
 }
@@ -146,6 +153,7 @@ static Status collect(Run *run) {
 }
 
 static Status run_unit(Run *run) {
+    tell_packing(run);
     TRY(open_replica(run));
     TRY(open_trajectory(run));
     tell_start(run);

@@ -29,6 +29,8 @@ const OptionTable ensemble_options = {ensemble_rows, sizeof ensemble_rows / size
 static const Option output_rows[] = {
     {"trajectory.every", OPTION_REAL, offsetof(OutputPlan, trajectory_every), 0, 0, 1e12,
      "time unit of the method", "Time between stored configurations; 0 stores none."},
+    {"trajectory.stage", OPTION_TEXT, offsetof(OutputPlan, trajectory_stage), 0, 0, 0, "",
+     "The stage to store configurations of, with that at its start; all stages if not given."},
     {"checkpoint_every", OPTION_DURATION, offsetof(OutputPlan, checkpoint_every), 600, 0.01, 1e7,
      "s", "Wall-clock time between checkpoints: what a crash can cost at most."},
 };
@@ -106,8 +108,18 @@ static Status check_stage(const Plan *plan, size_t stage) {
     return OK;
 }
 
+static Status check_output(const Plan *plan) {
+    const char *recorded = plan->output.trajectory_stage;
+    if (recorded[0] == '\0') return OK;
+    for (size_t s = 0; s < plan->stage_count; s++) {
+        if (strcmp(plan->stages[s].name, recorded) == 0) return OK;
+    }
+    return status_fail(BAD_DATA, "trajectory.stage: there is no stage '%s'", recorded);
+}
+
 Status plan_check(const Plan *plan) {
     TRY(check_system(&plan->system));
+    TRY(check_output(plan));
     if (plan->stage_count < 1) return status_fail(BAD_DATA, "a protocol needs a stage");
     for (size_t s = 0; s < plan->stage_count; s++) TRY(check_stage(plan, s));
     return OK;

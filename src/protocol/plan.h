@@ -28,8 +28,9 @@ typedef struct EnsemblePlan {
 } EnsemblePlan;
 
 typedef struct OutputPlan {
-    double trajectory_every; // in the stage's time unit; 0: no trajectory
-    double checkpoint_every; // wall-clock seconds
+    double trajectory_every;                 // in the stage's time unit; 0: no trajectory
+    char trajectory_stage[OPTION_TEXT_SIZE]; // the only stage to record; "": all
+    double checkpoint_every;                 // wall-clock seconds
 } OutputPlan;
 
 typedef struct Plan {

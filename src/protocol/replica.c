@@ -6,6 +6,7 @@
 #include "packing/packing.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double OVERLAP_LIMIT = 1e-12; // depth, relative to contact, that counts as unhealthy
 static const double SLICE_SECONDS = 0.05;  // signals are noticed between slices
@@ -59,24 +60,33 @@ static Status show_observers(Replica *replica, int64_t before) {
     return OK;
 }
 
-// Ticks between frames: whole steps, so that a frame is a State that determines the future.
-static int64_t frame_ticks(const Plan *plan, const Clock *clock) {
-    if (!(plan->output.trajectory_every > 0)) return 0;
-    const double step = clock->tick * (double)clock->ticks_per_step;
-    const double steps = rint(plan->output.trajectory_every / step);
-    if (steps * (double)clock->ticks_per_step >= (double)clock->ticks) return clock->ticks;
-    return (steps < 1 ? 1 : (int64_t)steps) * clock->ticks_per_step;
+static bool stage_is_recorded(const Plan *plan, size_t stage) {
+    const char *recorded = plan->output.trajectory_stage;
+    if (!(plan->output.trajectory_every > 0)) return false;
+    return recorded[0] == '\0' || strcmp(recorded, plan->stages[stage].name) == 0;
 }
 
-static bool stage_is_first(size_t stage) {
-    return stage == 0;
+// The first stage recorded also gives the configuration at its start.
+static bool records_its_start(const Plan *plan, size_t stage) {
+    if (!stage_is_recorded(plan, stage)) return false;
+    return stage == 0 || !stage_is_recorded(plan, stage - 1);
 }
 
-// The first stage also gives the configuration at its start.
-static int64_t stage_frames(const Plan *plan, size_t stage) {
+// Ticks between frames: whole steps, so that a frame is a State that determines the future. 0 where
+// there are none.
+static int64_t frame_ticks(const Plan *plan, size_t stage) {
+    if (!stage_is_recorded(plan, stage)) return 0;
     const Clock clock = plan_clock(plan, stage);
-    const int64_t every = frame_ticks(plan, &clock);
-    return every ? clock.ticks / every + stage_is_first(stage) : 0;
+    const double step = clock.tick * (double)clock.ticks_per_step;
+    const double steps = rint(plan->output.trajectory_every / step);
+    if (steps * (double)clock.ticks_per_step >= (double)clock.ticks) return clock.ticks;
+    return (steps < 1 ? 1 : (int64_t)steps) * clock.ticks_per_step;
+}
+
+static int64_t stage_frames(const Plan *plan, size_t stage) {
+    const int64_t every = frame_ticks(plan, stage);
+    if (!every) return 0;
+    return plan_clock(plan, stage).ticks / every + records_its_start(plan, stage);
 }
 
 int64_t plan_frames(const Plan *plan) {
@@ -95,9 +105,7 @@ static Status make_propagator(Replica *replica) {
 static Status begin_stage(Replica *replica) {
     TRY(make_propagator(replica));
     TRY(make_observers(replica, replica->stage));
-    if (frame_ticks(replica->plan, &replica->clock)) {
-        replica->frames_due += stage_is_first(replica->stage);
-    }
+    replica->frames_due += records_its_start(replica->plan, replica->stage);
     return show_observers(replica, -1);
 }
 
@@ -184,7 +192,7 @@ static int64_t least(int64_t a, int64_t b) {
 
 static int64_t next_stop(const Replica *replica) {
     const Clock *clock = &replica->clock;
-    const int64_t frames = frame_ticks(replica->plan, clock);
+    const int64_t frames = frame_ticks(replica->plan, replica->stage);
     int64_t stop = clock->ticks;
     stop = least(stop, next_observation(replica));
     stop = least(stop, next_multiple(replica->tick, slice_ticks(replica)));
@@ -196,7 +204,7 @@ static int64_t next_stop(const Replica *replica) {
 Status replica_advance(Replica *replica) {
     if (!replica->propagator) return begin_stage(replica);
     const int64_t before = replica->tick, after = next_stop(replica);
-    const int64_t frames = frame_ticks(replica->plan, &replica->clock);
+    const int64_t frames = frame_ticks(replica->plan, replica->stage);
     TRY(replica->propagator->kind->advance(replica->propagator, after - before, &replica->tally));
     replica->tick = after;
     TRY(show_observers(replica, before));
@@ -309,9 +317,12 @@ double replica_stage_time(const Replica *replica) {
     return replica->propagator ? replica->clock.tick * (double)replica->tick : 0;
 }
 
-double replica_time(const Replica *replica) {
-    double time = replica_stage_time(replica);
+double replica_recorded_time(const Replica *replica) {
+    const Plan *plan = replica->plan;
+    const bool inside = replica->propagator && stage_is_recorded(plan, replica->stage);
+    double time = inside ? replica_stage_time(replica) : 0;
     for (size_t s = 0; s < replica->stage; s++) {
+        if (!stage_is_recorded(plan, s)) continue;
         const Clock clock = plan_clock(replica->plan, s);
         time += clock.tick * (double)clock.ticks;
     }

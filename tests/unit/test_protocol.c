@@ -217,6 +217,12 @@ static void assert_same_end(const Archive *a, const Archive *b) {
     ck_assert_mem_eq(a->bytes + after, b->bytes + after, a->size - after);
 }
 
+static void assert_refused(Plan *plan, const char *words) {
+    ck_assert_int_eq(plan_check(plan), BAD_DATA);
+    ck_assert_msg(strstr(status_sentence(), words), "'%s' is not in: %s", words, status_sentence());
+    memory_free(plan);
+}
+
 START_TEST(observers_see_just_the_ticks_they_wished_for) {
     Plan *plan = two_stages(1e-9);
     Replica *replica = fresh(plan);
@@ -229,12 +235,30 @@ START_TEST(observers_see_just_the_ticks_they_wished_for) {
     ck_assert_double_eq(results_find_scalar(results, "second", "looks")->values[0], 334);
     ck_assert_int_eq(replica_frames_done(replica), 1 + 2 + 25);
     ck_assert_int_eq(plan_frames(plan), 28);
-    ck_assert_double_eq_tol(replica_time(replica), 275, 1e-12);
+    ck_assert_double_eq_tol(replica_recorded_time(replica), 275, 1e-12);
     ck_assert_uint_eq(replica_tally(replica).windows, 1100);
     results_free(results);
     archive_free(&end);
     replica_free(replica);
     memory_free(plan);
+}
+END_TEST
+
+START_TEST(one_stage_alone_can_be_recorded_from_its_start) {
+    Plan *plan = two_stages(1e-9);
+    strcpy(plan->output.trajectory_stage, "second");
+    ck_assert_int_eq(plan_check(plan), OK);
+    ck_assert_int_eq(plan_frames(plan), 1 + 25);
+    Replica *replica = fresh(plan);
+    ck_assert_int_eq(replica_frames_done(replica), 0);
+    Archive end = archive_writer();
+    end_of(replica, &end);
+    ck_assert_int_eq(replica_frames_done(replica), 26);
+    ck_assert_double_eq_tol(replica_recorded_time(replica), 250, 1e-12);
+    archive_free(&end);
+    replica_free(replica);
+    strcpy(plan->output.trajectory_stage, "third");
+    assert_refused(plan, "no stage 'third'");
 }
 END_TEST
 
@@ -316,12 +340,6 @@ START_TEST(a_stage_lasts_a_whole_number_of_steps) {
 }
 END_TEST
 
-static void assert_refused(Plan *plan, const char *words) {
-    ck_assert_int_eq(plan_check(plan), BAD_DATA);
-    ck_assert_msg(strstr(status_sentence(), words), "'%s' is not in: %s", words, status_sentence());
-    memory_free(plan);
-}
-
 START_TEST(what_cannot_be_is_said) {
     Plan *plan = two_stages(1e-9);
     ck_assert_int_eq(plan_check(plan), OK);
@@ -350,6 +368,7 @@ int main(void) {
     TCase *all = tcase_create("all");
     tcase_set_timeout(all, 60);
     tcase_add_test(all, observers_see_just_the_ticks_they_wished_for);
+    tcase_add_test(all, one_stage_alone_can_be_recorded_from_its_start);
     tcase_add_test(all, how_time_is_sliced_changes_no_bit);
     tcase_add_test(all, a_replica_saved_and_loaded_anywhere_ends_in_the_same_bits);
     tcase_add_test(all, torn_and_spoiled_saves_are_refused);
