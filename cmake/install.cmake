@@ -33,5 +33,6 @@ install(FILES ${CMAKE_BINARY_DIR}/public/perrin.pc DESTINATION lib/pkgconfig)
 install(FILES ${CMAKE_BINARY_DIR}/public/PerrinConfig.cmake
               ${CMAKE_BINARY_DIR}/public/PerrinConfigVersion.cmake
         DESTINATION lib/cmake/Perrin)
-install(DIRECTORY examples DESTINATION share/perrin)
+install(DIRECTORY examples gallery DESTINATION share/perrin)
+install(FILES docs/perrin.1 DESTINATION share/man/man1)
 install(FILES LICENSE CITATION.cff DESTINATION share/doc/perrin)

@@ -31,7 +31,7 @@ awk '/^   ```c$/ { on = 1; next } /^   ```$/ { on = 0 } on { sub(/^   /, ""); pr
 
 # Every file and folder that a page of ours links to is there.
 for page in "$source"/*.md "$source"/docs/*.md "$source"/gallery/*.md "$source"/src/*/README.md; do
-    grep -o '](\([^)#:]*\)' "$page" | sed 's/^](//' | grep -v '^$' | while read -r link; do
+    grep -o '](\([^)#:]*\)' "$page" | sed 's/^](//' | grep -v -e '^$' -e '^http' | while read -r link; do
         [ -e "$(dirname "$page")/$link" ] || { echo "$page links to $link, which is not there"; }
     done
 done >"$scratch/broken"
