@@ -45,15 +45,14 @@ static Status run_plan(const GalleryRun *run, const char *point, char *settings_
     return status;
 }
 
-// The settings of the full run come first, so that those of the point win.
+// The settings of the full run come last, so that they win.
 static Status run_point(const GalleryRun *run, const Csv *points, size_t row) {
     char path[GALLERY_PATH];
     char *full = NULL;
     TRY(gallery_path(path, run->entry, "full.txt"));
     if (run->full) TRY(csv_read_text(path, &full));
     Text settings = {0};
-    text_add(&settings, "%s\n%s\n", full ? full : "", csv_cell(points, row, "settings"));
-    if (run->full) text_put(&settings, csv_cell(points, row, "full"));
+    text_add(&settings, "%s\n%s\n", csv_cell(points, row, "settings"), full ? full : "");
     memory_free(full);
     Status status = text_status(&settings);
     if (status == OK) status = run_plan(run, csv_cell(points, row, "point"), settings.bytes);
