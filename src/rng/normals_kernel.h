@@ -8,8 +8,8 @@
 // every bit of the counter reaches every bit of the words in nine.
 //
 // Only integer operations and + - * / sqrt, so that all builds give the same bits. In single
-// precision, since relative errors of 1e-7 in numbers drawn at random would need 1e13 draws to be
-// seen, and double would cost half as much again.
+// precision: relative errors of 1e-7 in numbers drawn at random would need some 1e13 draws to be
+// seen, and double has half the lanes.
 #pragma once
 
 #include "rng/normals.h"
