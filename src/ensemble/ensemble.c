@@ -68,6 +68,10 @@ void ensemble_free(Ensemble *ensemble) {
     memory_free(ensemble);
 }
 
+size_t ensemble_threads(const Ensemble *ensemble) {
+    return ensemble->threads;
+}
+
 // The first failure is kept, with its sentence, and stops the others after a checkpoint. That some
 // replica was interrupted is no failure of its own.
 static void keep_failure(EnsembleShared *shared, Status status) {

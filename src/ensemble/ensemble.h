@@ -11,6 +11,7 @@ typedef struct Ensemble Ensemble;
 
 // Plan and store are borrowed until ensemble_free. threads = 0: as many as processors.
 Status ensemble_create(Ensemble **out, const Plan *plan, Store *store, int threads);
+size_t ensemble_threads(const Ensemble *ensemble); // that it uses
 Status ensemble_start(Ensemble *ensemble);
 
 bool ensemble_running(const Ensemble *ensemble);

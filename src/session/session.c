@@ -75,9 +75,10 @@ static Status begin(Session *session, const SessionWishes *wishes) {
     TRY(store_open(&session->store, wishes->directory));
     store_ignore_signals();
     TRY(take_plan(session));
-    TRY(store_log(session->store, "perrin %s (%s) %s, %d threads", version_number(),
-                  version_commit(), session->resumes ? "resumes" : "starts", wishes->threads));
     TRY(ensemble_create(&session->ensemble, session->plan, session->store, wishes->threads));
+    TRY(store_log(session->store, "perrin %s (%s) %s, %zu threads", version_number(),
+                  version_commit(), session->resumes ? "resumes" : "starts",
+                  ensemble_threads(session->ensemble)));
     return ensemble_start(session->ensemble);
 }
 
