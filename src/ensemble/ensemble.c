@@ -176,7 +176,8 @@ static Status put_speed(const EnsembleShared *shared) {
     double seconds = 0, ticks = 0, packing = 0;
     for (size_t r = 0; r < shared->results->replicas; r++) {
         seconds += shared->units[r].cpu_seconds;
-        ticks += shared->units[r].particle_ticks;
+        ticks +=
+            (double)shared->units[r].health.tally.windows * (double)shared->plan->system.particles;
         packing += shared->units[r].packing_seconds;
     }
     char text[64];

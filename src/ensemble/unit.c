@@ -20,9 +20,9 @@ typedef struct Run {
     unsigned requests_seen;
 } Run;
 
-static double clock_seconds(clockid_t clock) {
+static double monotonic_seconds(void) {
     struct timespec now;
-    clock_gettime(clock, &now);
+    clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
@@ -68,14 +68,14 @@ static Status write_checkpoint(Run *run) {
         status = checkpoint_write(run->shared->store, run->index, archive.bytes, archive.size);
     }
     archive_free(&archive);
-    run->last_checkpoint = clock_seconds(CLOCK_MONOTONIC);
+    run->last_checkpoint = monotonic_seconds();
     run->requests_seen = atomic_load(&run->shared->checkpoint_requests);
     return status;
 }
 
 static bool checkpoint_due(const Run *run) {
     if (atomic_load(&run->shared->checkpoint_requests) != run->requests_seen) return true;
-    const double since = clock_seconds(CLOCK_MONOTONIC) - run->last_checkpoint;
+    const double since = monotonic_seconds() - run->last_checkpoint;
     return since >= run->shared->plan->output.checkpoint_every;
 }
 
@@ -96,14 +96,13 @@ static void tell_start(Run *run) {
     pthread_mutex_unlock(&run->shared->mutex);
 }
 
-static void tell_progress(Run *run, uint64_t windows, double cpu_seconds) {
+static void tell_progress(Run *run, uint64_t windows) {
     const Plan *plan = run->shared->plan;
     const size_t stage = replica_stage(run->replica);
     Unit *unit = &run->shared->units[run->index];
     pthread_mutex_lock(&run->shared->mutex);
     unit->fraction = replica_progress(run->replica);
     unit->particle_ticks += (double)windows * (double)plan->system.particles;
-    unit->cpu_seconds += cpu_seconds;
     if (stage < plan->stage_count) {
         unit->stage = plan->stages[stage].name;
         unit->stage_time = replica_stage_time(run->replica);
@@ -113,16 +112,14 @@ static void tell_progress(Run *run, uint64_t windows, double cpu_seconds) {
 }
 
 static Status advance(Run *run) {
-    const double start = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
     const uint64_t before = replica_tally(run->replica).windows;
     TRY(replica_advance(run->replica));
-    const uint64_t windows = replica_tally(run->replica).windows - before;
-    tell_progress(run, windows, clock_seconds(CLOCK_THREAD_CPUTIME_ID) - start);
+    tell_progress(run, replica_tally(run->replica).windows - before);
     return OK;
 }
 
 static Status run_through(Run *run) {
-    run->last_checkpoint = clock_seconds(CLOCK_MONOTONIC);
+    run->last_checkpoint = monotonic_seconds();
     run->requests_seen = atomic_load(&run->shared->checkpoint_requests);
     while (true) {
         TRY(write_frames(run));
@@ -146,6 +143,7 @@ static Status collect(Run *run) {
     unit->health = (UnitHealth){.tally = replica_tally(run->replica),
                                 .overlaps = replica_overlaps(run->replica),
                                 .deepest_overlap = replica_deepest_overlap(run->replica)};
+    unit->cpu_seconds = replica_cpu_seconds(run->replica);
     unit->finished = status == OK;
     unit->fraction = 1;
     pthread_mutex_unlock(&shared->mutex);

@@ -20,7 +20,7 @@ typedef struct Unit {
     bool running, finished;
     double fraction, fraction_at_start; // of its work
     double particle_ticks;              // done in this process
-    double cpu_seconds;                 // spent on them
+    double cpu_seconds;                 // when finished: over all sessions, packing apart
     double packing_seconds;
     const char *stage; // of the plan
     double stage_time;

@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <time.h>
 
 static const double OVERLAP_LIMIT = 1e-12; // depth, relative to contact, that counts as unhealthy
 static const double SLICE_SECONDS = 0.05;  // signals are noticed between slices
@@ -26,6 +27,7 @@ struct Replica {
     uint64_t overlaps;
     double deepest_overlap;
     PackingReport packing;
+    double cpu_seconds; // spent on advancing and observing, over all sessions
     Observer *observers[STAGES_MOST][OBSERVATIONS_MOST]; // made when their stage begins
 };
 
@@ -201,7 +203,7 @@ static int64_t next_stop(const Replica *replica) {
     return stop;
 }
 
-Status replica_advance(Replica *replica) {
+static Status advance(Replica *replica) {
     if (!replica->propagator) return begin_stage(replica);
     const int64_t before = replica->tick, after = next_stop(replica);
     const int64_t frames = frame_ticks(replica->plan, replica->stage);
@@ -211,6 +213,19 @@ Status replica_advance(Replica *replica) {
     if (frames && after % frames == 0) replica->frames_due++;
     if (after % (HEALTH_STEPS * replica->clock.ticks_per_step) == 0) TRY(check_health(replica));
     return after == replica->clock.ticks ? end_stage(replica) : OK;
+}
+
+static double thread_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+Status replica_advance(Replica *replica) {
+    const double start = thread_seconds();
+    const Status status = advance(replica);
+    replica->cpu_seconds += thread_seconds() - start;
+    return status;
 }
 
 // Between two stages nothing but the state is alive; inside one, only a step's end determines the
@@ -241,6 +256,7 @@ static void archive_place(Replica *replica, Archive *archive, uint64_t *stage, u
     archive_u64(archive, &replica->overlaps, 1);
     archive_f64(archive, &replica->deepest_overlap, 1);
     archive_f64(archive, &replica->packing.seconds, 1);
+    archive_f64(archive, &replica->cpu_seconds, 1);
     archive_i64(archive, &replica->packing.windows, 1);
     archive_f64(archive, &replica->packing.lattice_scale, 1);
     tally_archive(&replica->tally, archive);
@@ -350,6 +366,10 @@ Tally replica_tally(const Replica *replica) {
     Tally sum = replica->finished;
     tally_add(&sum, &replica->tally);
     return sum;
+}
+
+double replica_cpu_seconds(const Replica *replica) {
+    return replica->cpu_seconds;
 }
 
 PackingReport replica_packing(const Replica *replica) {

@@ -36,6 +36,7 @@ double replica_stage_time(const Replica *replica);    // in the stage's unit
 double replica_recorded_time(const Replica *replica); // since recording began, stage times summed
 double replica_progress(const Replica *replica);      // fraction of the estimated work, 0 to 1
 Tally replica_tally(const Replica *replica);          // over all stages
+double replica_cpu_seconds(const Replica *replica);   // packing apart, over all sessions
 PackingReport replica_packing(const Replica *replica);
 uint64_t replica_overlaps(const Replica *replica); // at observations, deeper than the limit
 double replica_deepest_overlap(const Replica *replica);
