@@ -15,39 +15,47 @@ static void indent(Text *text, size_t blanks) {
     text_add(text, "%*s", (int)blanks, "");
 }
 
-// Opens the maps on the way to `name` that the row before did not: "times:" for "times.first".
-// Returns how deep the last part of the name lies.
-static size_t open_maps(const char *name, const char *before, size_t blanks, Text *text) {
-    size_t depth = 0;
-    for (const char *part = name, *dot; (dot = strchr(part, '.')); part = dot + 1, depth++) {
-        const size_t length = (size_t)(dot + 1 - name);
-        if (strncmp(name, before, length) == 0) continue;
-        indent(text, blanks + STEP * depth);
-        text_add(text, "%.*s:\n", (int)(dot - part), part);
-    }
-    return depth;
-}
-
-static void write_row(const Option *row, const char *before, const void *settings, size_t blanks,
+static void write_row(const Option *row, const char *name, const void *settings, size_t blanks,
                       Text *text) {
-    const char *dot = strrchr(row->name, '.');
-    indent(text, blanks + STEP * open_maps(row->name, before, blanks, text));
-    text_add(text, "%s: ", dot ? dot + 1 : row->name);
+    indent(text, blanks);
+    text_add(text, "%s: ", name);
     option_write(row, settings, text);
     const bool commented = row->unit[0] != '\0' && row->type != OPTION_DURATION;
     text_add(text, commented ? " # in %s\n" : "\n", row->unit);
 }
 
+// Whether a row before this one begins with the same `length` letters.
+static bool came_before(const OptionTable *table, size_t index, size_t length) {
+    for (size_t i = 0; i < index; i++) {
+        if (strncmp(table->rows[i].name, table->rows[index].name, length) == 0) return true;
+    }
+    return false;
+}
+
+// The rows below the first `prefix` letters of row `first`: those with a further dot are a map.
+static void write_level(const OptionTable *table, const char *but, const void *settings,
+                        size_t first, size_t prefix, size_t blanks, Text *text) {
+    for (size_t i = first; i < table->count; i++) {
+        const char *path = table->rows[i].name, *name = path + prefix;
+        if (strncmp(path, table->rows[first].name, prefix) != 0) continue;
+        if (but && strcmp(path, but) == 0) continue;
+        const char *dot = strchr(name, '.');
+        if (!dot) {
+            write_row(&table->rows[i], name, settings, blanks, text);
+            continue;
+        }
+        const size_t below = (size_t)(dot + 1 - path);
+        if (came_before(table, i, below)) continue;
+        indent(text, blanks);
+        text_add(text, "%.*s:\n", (int)(dot - name), name);
+        write_level(table, but, settings, i, below, blanks + STEP, text);
+    }
+}
+
 // All rows but one that is not given; NULL for `but`: all.
 static void write_table(const OptionTable *table, const char *but, const void *settings,
                         size_t blanks, Text *text) {
-    const char *before = "";
-    for (size_t i = 0; i < table->count; i++) {
-        const Option *row = &table->rows[i];
-        if (but && strcmp(row->name, but) == 0) continue;
-        write_row(row, before, settings, blanks, text);
-        before = row->name;
-    }
+    write_level(table, but, settings, 0, 0, blanks, text);
 }
 
 static void write_system(const System *system, Text *text) {
