@@ -1,0 +1,24 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Every point of every gallery entry, quick and full, is a run file that passes its checks, and each
+# entry has all its files. Takes the program and the gallery; runs no dynamics.
+set -u
+perrin=$1 gallery=$2
+failed=0
+for entry in "$gallery"/*/; do
+    for file in README.md run.yaml full.txt points.csv measures.csv expected.csv figure.gp; do
+        [ -s "$entry$file" ] || { echo "$entry$file is missing"; failed=1; }
+    done
+    full=$(grep -v '^#' "$entry/full.txt" | tr '\n' ' ')
+    points=$(grep -v -e '^#' -e '^point,' "$entry/points.csv" | cut -d, -f4 | sed 's/^$/-/' | tr ' ' ',')
+    for settings in $points; do
+        for more in "" "$full"; do
+            set --
+            for setting in $(echo "$settings" | tr ',' ' ') $more; do
+                [ "$setting" = - ] || set -- "$@" --set "$setting"
+            done
+            "$perrin" check "$entry/run.yaml" "$@" >/dev/null || { echo "in $entry: $*"; failed=1; }
+        done
+    done
+done
+exit $failed
