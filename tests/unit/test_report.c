@@ -5,6 +5,7 @@
 #include "report/gnuplot.h"
 #include "report/json.h"
 #include "report/notation.h"
+#include "report/picture.h"
 #include "report/report.h"
 #include "report/utf8.h"
 
@@ -223,6 +224,8 @@ START_TEST(the_page_is_whole_in_itself_and_escapes_what_it_is_told) {
     ck_assert_ptr_null(strstr(page.bytes, "<script"));
     ck_assert_ptr_null(strstr(page.bytes, " src="));
     ck_assert_ptr_null(strstr(page.bytes, "@import"));
+    ck_assert_ptr_null(strstr(page.bytes, "id='gpDot'")); // ids bear the figure's name
+    ck_assert_ptr_nonnull(strstr(page.bytes, "id='quiescent_mean_squared_displacement-gpDot'"));
     text_free(&page);
     results_free(results);
     remove_place(&place);
@@ -256,6 +259,59 @@ START_TEST(points_without_an_error_are_drawn_all_the_same) {
     ck_assert_msg(report_write(results, place.directory) == OK, "%s", status_sentence());
     results_free(results);
     remove_place(&place);
+}
+END_TEST
+
+START_TEST(a_reference_stands_beside_its_number_with_the_deviation) {
+    const Place place = new_place();
+    Results *results = sample();
+    for (size_t r = 0; r < 2; r++) {
+        results_put_scalar(results, "quiescent", "pressure_theory", "kT/d^2", "By X.", r, 10);
+    }
+    report_write(results, place.directory);
+    Text page = read_page(&place);
+    ck_assert_ptr_nonnull(strstr(page.bytes, "−7.50 % (−3.0 σ)"));
+    ck_assert_ptr_nonnull(strstr(page.bytes, "References: By X."));
+    ck_assert_ptr_null(strstr(page.bytes, "<td>pressure theory</td>"));
+    text_free(&page);
+    results_free(results);
+    remove_place(&place);
+}
+END_TEST
+
+static size_t count_of(const char *words, const char *part) {
+    size_t count = 0;
+    while ((words = strstr(words, part)) != NULL) count++, words++;
+    return count;
+}
+
+START_TEST(a_disc_at_the_corner_is_drawn_with_its_images) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    const double ids[] = {0, 1}, edges[] = {10, 10};
+    const double rows[] = {0.2, 9.9, 0, 1, 0, /* and in the middle: */ 5, 5, 0, 1.4, 1};
+    const char *const columns[] = {"x", "y", "z", "diameter", "species"}, *const axes[] = {"x",
+                                                                                           "y"};
+    const ResultSeries snapshot = {
+        .stage = "quiescent",
+        .observable = "snapshot",
+        .axes = 2,
+        .axis = {{.name = "particle", .unit = "", .count = 2, .values = ids},
+                 {.name = "column", .unit = "", .count = 5, .labels = columns}}};
+    const ResultSeries box = {
+        .stage = "quiescent",
+        .observable = "snapshot_box",
+        .axes = 1,
+        .axis = {{.name = "direction", .unit = "", .count = 2, .labels = axes}}};
+    results_put_series(results, &snapshot, 0, rows);
+    results_put_series(results, &box, 0, edges);
+    const ResultSeries *series = results_find_series(results, "quiescent", "snapshot");
+    ck_assert(picture_exists(results, series));
+    Text picture = {0};
+    picture_draw(&picture, results, series);
+    ck_assert_uint_eq(count_of(picture.bytes, "<circle"), 4 + 1);
+    text_free(&picture);
+    results_free(results);
 }
 END_TEST
 
@@ -332,6 +388,8 @@ int main(void) {
     tcase_add_test(tests, the_page_is_whole_in_itself_and_escapes_what_it_is_told);
     tcase_add_test(tests, without_gnuplot_the_page_is_written_and_says_what_it_lacks);
     tcase_add_test(tests, points_without_an_error_are_drawn_all_the_same);
+    tcase_add_test(tests, a_reference_stands_beside_its_number_with_the_deviation);
+    tcase_add_test(tests, a_disc_at_the_corner_is_drawn_with_its_images);
     tcase_add_test(tests, a_broken_limit_is_the_first_thing_a_reader_sees);
     tcase_add_test(tests, where_nothing_can_be_written_the_sentence_names_the_path);
     tcase_add_test(tests, an_observable_without_a_row_is_drawn_by_the_plain_rule);
