@@ -61,7 +61,7 @@ static void watch(Session *session, bool quiet) {
     if (terminal && !quiet) fputs("\r\033[K", stderr);
 }
 
-static void print_end(const Results *results, const char *directory, const char *note) {
+static void print_end(const Results *results, const char *directory) {
     const char *speed = results_find_fact(results, "ns_per_particle_tick");
     const char *seconds = results_find_fact(results, "wall_seconds");
     fprintf(stderr, "done in %s s (%s ns per particle and tick)\n", seconds, speed);
@@ -71,7 +71,6 @@ static void print_end(const Results *results, const char *directory, const char 
         fprintf(stderr, "health: %s = %g (limit %g)%s\n", counter->name, counter->value,
                 counter->limit, result_healthy(counter) ? "" : "  BROKEN");
     }
-    if (note) fprintf(stderr, "no complete report: %s\n", note);
     fprintf(stderr, "numbers: perrin show %s\nreport:  %s/report.html\n", directory, directory);
 }
 
@@ -88,7 +87,8 @@ static Status watch_and_finish(Session *session, const SessionWishes *wishes, bo
                            "interrupted; all is in checkpoints: the same command resumes in %s",
                            wishes->directory);
     }
-    if (results && !quiet) print_end(results, wishes->directory, note);
+    if (results && !quiet) print_end(results, wishes->directory);
+    if (note) fprintf(stderr, "no complete report: %s\n", note); // quiet is not silent
     results_free(results);
     return status;
 }
