@@ -72,8 +72,8 @@ static Status begin(Session *session, const SessionWishes *wishes) {
         return status_fail(BAD_USAGE, "nothing to resume in %s", wishes->directory);
     }
     TRY(config_write(session->plan, &session->plan_text));
+    store_ignore_signals(); // before the first write
     TRY(store_open(&session->store, wishes->directory));
-    store_ignore_signals();
     TRY(take_plan(session));
     TRY(ensemble_create(&session->ensemble, session->plan, session->store, wishes->threads));
     TRY(store_log(session->store, "perrin %s (%s) %s, %zu threads", version_number(),

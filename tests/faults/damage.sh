@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # damage.sh PERRIN SAME: checkpoints cut off or with a flipped bit, trajectories and results of
 # strangers. One damaged slot: the run goes on from the other and the log says so. Both: exit code
-# 65, a sentence with the path, and nothing is written over.
+# 65, a sentence with the path, and nothing is written over. PERRIN must run for half a second.
 PROGRAM=$1 SAME=$2
 . "$(dirname "$0")/common.sh"
 
@@ -13,9 +13,11 @@ cases=0
 
 # A run killed on its way, so that there is something to resume.
 if is_perrin; then
+    THREADS=2
     launch "$work/stopped" >"$work/out" 2>&1 &
     process=$!
-    until [ -e "$work/stopped/checkpoint/replica-0000.b" ]; do sleep 0.01; done
+    until [ -e "$work/stopped/checkpoint/replica-0000.b" ] &&
+        [ -e "$work/stopped/checkpoint/replica-0001.b" ]; do sleep 0.01; done
     kill -KILL $process 2>/dev/null
     wait $process 2>/dev/null
 else
@@ -41,12 +43,12 @@ goes_on() { # NAME PATH-IN-LOG
     same "$work/run" "$work/reference" || fail "$1: ends in other data"
 }
 
-refuses() { # NAME PATH CODE
+refuses() { # NAME PATH CODE [WORDS-IN-SENTENCE]
     cksum "$2" >"$work/before"
     code=0
     start "$work/run" >"$work/out" 2>&1 || code=$?
     [ $code -eq "$3" ] || fail "$1: exit code $code: $(cat "$work/out")"
-    [ "$(grep -c error: "$work/out")" -eq 1 ] && grep -q "error: .*$(basename "$2")" "$work/out" ||
+    [ "$(grep -c error: "$work/out")" -eq 1 ] && grep -q "error: .*$(basename "${4:-$2}")" "$work/out" ||
         fail "$1: not one sentence with the path: $(cat "$work/out")"
     cksum "$2" | cmp -s - "$work/before" || fail "$1: written over"
 }
@@ -85,7 +87,7 @@ refuses "a trajectory with a changed header" "$trajectory" 65
 
 fresh
 sed -i 's/particles: .*/particles: 99/' "$work/run/plan.yaml"
-refuses "another plan" "$work/run/plan.yaml" 73
+refuses "another plan" "$work/run/plan.yaml" 73 "another plan"
 
 rm -rf "$work/run"
 mkdir "$work/run"
