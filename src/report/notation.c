@@ -79,7 +79,15 @@ static const char *put_raised(Text *text, const char *digits) {
     return digits;
 }
 
+static bool is_one_over_a_letter(const char *unit) {
+    return unit[0] == '1' && unit[1] == '/' && unit[2] && !unit[3];
+}
+
 void notation_unit(Text *text, const char *unit) {
+    if (is_one_over_a_letter(unit)) {
+        text_add(text, "%s⁻¹", unit + 2);
+        return;
+    }
     for (const char *c = unit; *c;) {
         const bool raised = c[0] == '^' && (c[1] == '-' || (c[1] >= '0' && c[1] <= '9'));
         if (raised) {

@@ -10,7 +10,8 @@
 // "Rounding"). Without an error (one replica) six digits of the value; "-" for no number.
 void notation_estimate(Text *text, Estimate estimate);
 
-// A unit or symbol in typeset form: d^2/D0 becomes d²/D₀, sqrt(m/kT) becomes √(m/kT).
+// A unit or symbol in typeset form: d^2/D0 becomes d²/D₀, sqrt(m/kT) becomes √(m/kT),
+// 1/d becomes d⁻¹.
 void notation_unit(Text *text, const char *unit);
 
 // A name in words: long_time_diffusion becomes "long time diffusion".
