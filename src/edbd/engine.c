@@ -22,12 +22,12 @@ static Status allocate(Engine *engine) {
     TRY(NEW_ARRAY(engine->spare_rows, slots * engine->row));
     TRY(NEW_ARRAY(engine->id, slots + BLOCK));
     TRY(NEW_ARRAY(engine->spare_id, slots + BLOCK));
-    TRY(NEW_ARRAY(engine->radius, slots));
+    TRY(NEW_ARRAY(engine->radius, slots + BLOCK));
     TRY(NEW_ARRAY(engine->mass, slots));
     TRY(NEW_ARRAY(engine->thermal, slots + BLOCK));
     TRY(NEW_ARRAY(engine->stamp, slots));
     for (int a = 0; a < engine->dimension; a++) {
-        TRY(NEW_ARRAY(engine->normals[a], slots + BLOCK));
+        TRY(NEW_ARRAY(engine->column[a], slots + BLOCK));
         TRY(NEW_ARRAY(engine->snapshot.image[a], count));
     }
     TRY(NEW_ARRAY(engine->snapshot.rows, slots * engine->row));
@@ -113,7 +113,7 @@ void engine_free(Engine *engine) {
     memory_free(engine->thermal);
     memory_free(engine->stamp);
     for (int a = 0; a < 3; a++) {
-        memory_free(engine->normals[a]);
+        memory_free(engine->column[a]);
         memory_free(engine->snapshot.image[a]);
     }
     memory_free(engine->snapshot.rows);
@@ -136,16 +136,10 @@ void engine_record(Engine *engine, CollisionLog *log) {
     engine->log = log;
 }
 
-// Velocities from a Gaussian of variance kT/m per direction (Weysser, thesis, eq. 2.7, corrected).
 static void redraw(Engine *engine) {
     rng_normals(engine->key, engine->settings.stream, (uint64_t)engine->state->step, engine->id,
-                engine->count, engine->dimension, engine->normals);
-    for (int a = 0; a < engine->dimension; a++) {
-        double *velocity = engine->rows + engine->row / 2 + a;
-        for (size_t slot = 0; slot < engine->count; slot++) {
-            velocity[engine->row * slot] = engine->normals[a][slot] * engine->thermal[slot];
-        }
-    }
+                engine->count, engine->dimension, engine->column);
+    engine->kernel->redraw(engine);
 }
 
 static void snapshot_take(Engine *engine) {

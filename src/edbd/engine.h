@@ -36,12 +36,12 @@ typedef struct NeighbourList {
     double *anchor;   // [slots][ANCHOR]: where each was then
     size_t pairs;     // padded to whole blocks with a pair that never meets
     size_t pair_capacity;
-    uint32_t *first, *second; // [pairs]
+    uint32_t *first, *second; // [pairs] where their rows begin
     double *pair_contact2;    // [pairs] square of the contact distance at scale 1
     uint32_t *hits;           // [pairs] room for those that meet in a window
     uint32_t *start;          // [slots + 1], multiples of BLOCK
     size_t neighbour_capacity;
-    uint32_t *neighbour; // [start[slots]]
+    uint32_t *neighbour; // [start[slots]] where their rows begin
     double *contact2;    // [start[slots]]
 } NeighbourList;
 
@@ -57,6 +57,11 @@ typedef struct Snapshot {
 } Snapshot;
 
 typedef struct EngineKernel EngineKernel;
+
+// Consecutive slots.
+typedef struct Span {
+    uint32_t from, to;
+} Span;
 
 struct Engine {
     EngineSettings settings;
@@ -75,13 +80,13 @@ struct Engine {
     double *spare_rows; // the same, for reordering
     uint32_t *id;       // [count] of each slot
     uint32_t *spare_id;
-    double *radius;     // [count]
-    double *mass;       // [count]
-    double *thermal;    // [count] 1/sqrt(mass)
-    double *normals[3]; // [count]
-    uint32_t *stamp;    // [count + 1] collisions of each in this window
-    double largest;     // diameter
-    double fastest;     // thermal velocity
+    double *radius;    // [count]
+    double *mass;      // [count]
+    double *column[3]; // [count + BLOCK] scratch: normal numbers; positions while listing
+    double *thermal;   // [count] 1/sqrt(mass)
+    uint32_t *stamp;   // [count + 1] collisions of each in this window
+    double largest;    // diameter
+    double fastest;    // thermal velocity
 
     NeighbourList list;
     uint32_t *cell_of;    // [count]
@@ -106,6 +111,8 @@ struct Engine {
 struct EngineKernel {
     void (*run_window)(Engine *engine);  // predict, collide, move, fold
     void (*run_growing)(Engine *engine); // the same with growing diameters
+    void (*redraw)(Engine *engine);      // velocities from the normal numbers in `column`
+    size_t (*list_cell)(Engine *engine, size_t cell, const Span *spans, int count, size_t end);
 };
 
 // Becomes: extern const EngineKernel engine_kernel_2d_portable, ...

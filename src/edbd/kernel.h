@@ -8,6 +8,7 @@
 
 #include "edbd/engine.h"
 #include "edbd/lanes.h"
+#include "edbd/list_kernel.h"
 
 #include <string.h>
 
@@ -27,25 +28,19 @@ typedef struct Growth {
 // From separations at virtual origins, at time s.
 KERNEL Gap gap_of(const int dimension, const int growing, const Engine *engine, Lanes r[3],
                   const Lanes v[3], Lanes contact2, double s, Growth growth) {
-    Gap gap = {.c = -contact2};
-    if (growing) {
-        const double scale = growth.scale + growth.rate * s;
-        gap.c = -contact2 * lanes_all(scale * scale);
-        gap.b = -contact2 * lanes_all(scale * growth.rate);
-        gap.a = -contact2 * lanes_all(growth.rate * growth.rate);
-    }
     Lanes r2 = {0}, rv = {0}, v2 = {0};
     for (int a = 0; a < dimension; a++) {
         r[a] = lanes_nearest(r[a], lanes_all(engine->edge[a]), lanes_all(engine->edge[a] / 2));
-        r[a] += v[a] * lanes_all(s);
-        r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
-        rv = a == 0 ? r[a] * v[a] : rv + r[a] * v[a];
-        v2 = a == 0 ? v[a] * v[a] : v2 + v[a] * v[a];
+        r[a] += v[a] * s;
+        r2 += r[a] * r[a];
+        rv += r[a] * v[a];
+        v2 += v[a] * v[a];
     }
-    gap.c = r2 + gap.c;
-    gap.b = growing ? rv + gap.b : rv;
-    gap.a = growing ? v2 + gap.a : v2;
-    return gap;
+    if (!growing) return (Gap){.a = v2, .b = rv, .c = r2 - contact2};
+    const double scale = growth.scale + growth.rate * s;
+    return (Gap){.a = v2 - contact2 * (growth.rate * growth.rate),
+                 .b = rv - contact2 * (scale * growth.rate),
+                 .c = r2 - contact2 * (scale * scale)};
 }
 
 // Pairs that meet within `left`: approaching, and either overlapping by then or having passed
@@ -101,11 +96,10 @@ KERNEL void event_drop(Engine *engine, uint32_t *link) {
 
 KERNEL Gap pair_gap(const int dimension, const int growing, const Engine *engine,
                     const uint32_t *first, const uint32_t *second, Lanes contact2, Growth growth) {
-    const size_t row = dimension == 2 ? ROW_2D : ROW_3D;
     const double *i[LANES], *j[LANES];
     for (int k = 0; k < LANES; k++) {
-        i[k] = engine->rows + row * first[k];
-        j[k] = engine->rows + row * second[k];
+        i[k] = engine->rows + first[k];
+        j[k] = engine->rows + second[k];
     }
     Lanes r[3], v[3];
     lanes_separate(dimension, i, j, r, v);
@@ -119,10 +113,9 @@ KERNEL size_t find_hits(const int dimension, const int growing, Engine *engine, 
     for (size_t p = 0; p < list->pairs; p += LANES) {
         const Gap gap = pair_gap(dimension, growing, engine, list->first + p, list->second + p,
                                  lanes_load(list->pair_contact2 + p), growth);
-        unsigned bits = lanes_bits(gap_closes(growing, gap, engine->settings.window));
-        for (; bits; bits &= bits - 1) {
-            list->hits[hits++] = (uint32_t)p + (uint32_t)__builtin_ctz(bits);
-        }
+        const unsigned bits = lanes_bits(gap_closes(growing, gap, engine->settings.window));
+        lanes_pack_numbers(list->hits + hits, bits, (uint32_t)p, 1);
+        hits += (unsigned)__builtin_popcount(bits);
     }
     return hits;
 }
@@ -130,6 +123,7 @@ KERNEL size_t find_hits(const int dimension, const int growing, Engine *engine, 
 KERNEL void predict_all(const int dimension, const int growing, Engine *engine, Growth growth) {
     const NeighbourList *list = &engine->list;
     const size_t hits = find_hits(dimension, growing, engine, growth);
+    const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D;
     for (size_t h = 0; h < hits; h += LANES) {
         uint32_t first[LANES], second[LANES];
         Lanes contact2 = {0};
@@ -142,7 +136,9 @@ KERNEL void predict_all(const int dimension, const int growing, Engine *engine, 
         }
         const Lanes time =
             gap_time(pair_gap(dimension, growing, engine, first, second, contact2, growth));
-        for (size_t k = 0; k < lanes; k++) event_put(engine, time[k], first[k], second[k]);
+        for (size_t k = 0; k < lanes; k++) {
+            event_put(engine, time[k], first[k] / row, second[k] / row);
+        }
     }
 }
 
@@ -155,7 +151,7 @@ KERNEL void predict_one(const int dimension, const int growing, Engine *engine, 
         const double *i[LANES], *j[LANES];
         for (int k = 0; k < LANES; k++) {
             i[k] = engine->rows + row * slot;
-            j[k] = engine->rows + row * list->neighbour[n + (size_t)k];
+            j[k] = engine->rows + list->neighbour[n + (size_t)k];
         }
         Lanes r[3], v[3];
         lanes_separate(dimension, i, j, r, v);
@@ -166,7 +162,7 @@ KERNEL void predict_one(const int dimension, const int growing, Engine *engine, 
         const Lanes time = lanes_all(s) + gap_time(gap);
         for (; bits; bits &= bits - 1) {
             const int k = __builtin_ctz(bits);
-            event_put(engine, time[k], slot, list->neighbour[n + (size_t)k]);
+            event_put(engine, time[k], slot, list->neighbour[n + (size_t)k] / (uint32_t)row);
         }
     }
 }
@@ -199,10 +195,29 @@ KERNEL void count_overlap(Engine *engine, double r2, double contact2) {
     if (depth > engine->tally.deepest_contact) engine->tally.deepest_contact = depth;
 }
 
+// A particle changes its velocity by `change` at time t, and its virtual origin to match. One store
+// per row: the loads of whole rows that follow would wait for smaller ones.
+KERNEL void kick(const int dimension, double *row, const double change[3], double t) {
+    if (dimension == 2) {
+        const Quad both = {change[0], change[1], change[0], change[1]};
+        *(Quad *)row += both * (Quad){-t, -t, 1, 1};
+        return;
+    }
+    const Quad velocity = {change[0], change[1], change[2], 0};
+    const Quad low = *(const Quad *)row + velocity * (Quad){-t, -t, -t, -t};
+    const Quad high = *(const Quad *)(row + 4) + velocity;
+#if LANES == 8
+    lanes_store(row, __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7));
+#else
+    *(Quad *)row = low;
+    *(Quad *)(row + 4) = high;
+#endif
+}
+
 // The elastic collision (Weysser, thesis, eq. 2.5, divided by r^2 as it must be): momentum
 // -2 m_i m_j/(m_i + m_j) b r/r^2 goes to i, its mirror image to j; r = r_i - r_j, b = r.v.
 KERNEL void collide(const int dimension, const int growing, Engine *engine, const Event *event,
-                    Growth growth) {
+                    Growth growth, double exchange[6]) {
     const size_t row = dimension == 2 ? ROW_2D : ROW_3D, velocity = row / 2;
     const uint32_t slot_i = event->first, slot_j = event->second;
     double *i = engine->rows + row * slot_i, *j = engine->rows + row * slot_j;
@@ -226,21 +241,19 @@ KERNEL void collide(const int dimension, const int growing, Engine *engine, cons
 
     const double mass_i = engine->mass[slot_i], mass_j = engine->mass[slot_j];
     const double k = -2 * b / (r2 * (mass_i + mass_j));
-    const double change_i = k * mass_j, change_j = -(k * mass_i), momentum = k * mass_j * mass_i;
-    for (int a = 0; a < dimension; a++) {
-        const double dv_i = change_i * r[a], dv_j = change_j * r[a];
-        i[velocity + (size_t)a] += dv_i;
-        j[velocity + (size_t)a] += dv_j;
-        i[a] -= dv_i * t;
-        j[a] -= dv_j * t;
-        for (int c = 0; c < dimension; c++)
-            engine->tally.exchange[a][c] += momentum * (r[a] * r[c]);
+    const double k_i = k * mass_j, k_j = -(k * mass_i), momentum = k * mass_j * mass_i;
+    double change_i[3], change_j[3];
+    for (int a = 0, e = 0; a < dimension; a++) {
+        change_i[a] = k_i * r[a];
+        change_j[a] = k_j * r[a];
+        for (int c = a; c < dimension; c++) exchange[e++] += momentum * (r[a] * r[c]);
     }
+    kick(dimension, i, change_i, t);
+    kick(dimension, j, change_j, t);
     engine->tally.collisions++;
     if (engine->log) record(engine, event);
-    if (++engine->stamp[slot_i] > COLLISIONS_MOST || ++engine->stamp[slot_j] > COLLISIONS_MOST) {
-        engine->hung = 1;
-    }
+    const uint32_t stamp_i = ++engine->stamp[slot_i], stamp_j = ++engine->stamp[slot_j];
+    if (stamp_i > COLLISIONS_MOST || stamp_j > COLLISIONS_MOST) engine->hung = 1;
 }
 
 KERNEL int event_is_void(const Engine *engine, const Event *event) {
@@ -273,18 +286,33 @@ KERNEL uint32_t *earliest(Engine *engine, uint32_t *bucket) {
     return best;
 }
 
+// The sums of the tally as registers can hold them: xx xy (xz) yy (yz zz), symmetric.
+KERNEL void exchange_copy(const int dimension, Tally *tally, double exchange[6], int back) {
+    for (int a = 0, e = 0; a < dimension; a++) {
+        for (int c = a; c < dimension; c++, e++) {
+            if (back)
+                tally->exchange[a][c] = tally->exchange[c][a] = exchange[e];
+            else
+                exchange[e] = tally->exchange[a][c];
+        }
+    }
+}
+
 KERNEL void carry_out(const int dimension, const int growing, Engine *engine, Growth growth) {
-    for (uint32_t b = 0; b < engine->buckets; b++) {
+    double exchange[6];
+    exchange_copy(dimension, &engine->tally, exchange, 0);
+    for (uint32_t b = 0; b < engine->buckets && !engine->hung; b++) {
         uint32_t *link;
         while (engine->bucket[b] != NO_EVENT && (link = earliest(engine, &engine->bucket[b]))) {
             const Event event = engine->events[*link];
             event_drop(engine, link);
-            collide(dimension, growing, engine, &event, growth);
-            if (engine->hung) return;
+            collide(dimension, growing, engine, &event, growth, exchange);
+            if (engine->hung) break;
             predict_one(dimension, growing, engine, event.first, event.time, growth);
             predict_one(dimension, growing, engine, event.second, event.time, growth);
         }
     }
+    exchange_copy(dimension, &engine->tally, exchange, 1);
 }
 
 // Back into [0, edge); the anchor goes along, for the distance to it must not jump.
@@ -305,15 +333,40 @@ KERNEL void fold(Engine *engine, double *row, uint32_t slot, int axis) {
 }
 
 KERNEL void move_all(const int dimension, Engine *engine) {
-    const size_t row_size = dimension == 2 ? ROW_2D : ROW_3D, velocity = row_size / 2;
+    const double w = engine->settings.window;
+    const double *edge = engine->edge;
+    const Quad least = {0, 0, dimension == 2 ? -INFINITY : 0, -INFINITY};
+    const Quad bound = {edge[0], edge[1], dimension == 2 ? INFINITY : edge[2], INFINITY};
+    Quad farthest = {0};
     for (uint32_t slot = 0; slot < engine->count; slot++) {
-        double *row = engine->rows + row_size * slot;
-        for (int a = 0; a < dimension; a++) {
-            row[a] += row[velocity + (size_t)a] * engine->settings.window;
+        double *row = engine->rows + (size_t)(dimension == 2 ? ROW_2D : ROW_3D) * slot;
+        Quad place = *(const Quad *)row;
+        if (dimension == 2)
+            place += __builtin_shufflevector(place, place, 2, 3, 2, 3) * (Quad){w, w};
+        else
+            place += *(const Quad *)(row + 4) * (Quad){w, w, w};
+        *(Quad *)row = place;
+        const Quad away = place - *(const Quad *)(engine->list.anchor + (size_t)ANCHOR * slot);
+        Quad away2 = away * away;
+        if (dimension == 2)
+            away2 += __builtin_shufflevector(away2, away2, 1, 0, 2, 3);
+        else
+            away2 += __builtin_shufflevector(away2, away2, 1, 0, 3, 2);
+        if (dimension == 3) away2 += __builtin_shufflevector(away2, away2, 2, 3, 0, 1);
+        farthest = quad_larger(away2, farthest);
+        if (__builtin_expect(quad_bits(place, least, bound) != 0, 0)) {
+            for (int a = 0; a < dimension; a++) fold(engine, row, slot, a);
         }
-        watch(dimension, engine, slot, row);
+    }
+    if (farthest[0] > engine->list.farthest2) engine->list.farthest2 = farthest[0];
+}
+
+// Velocities from a Gaussian of variance kT/m per direction (Weysser, thesis, eq. 2.7, corrected).
+KERNEL void redraw_all(const int dimension, Engine *engine) {
+    for (size_t slot = 0; slot < engine->count; slot++) {
+        double *velocity = engine->rows + (dimension == 2 ? ROW_2D * slot + 2 : ROW_3D * slot + 4);
         for (int a = 0; a < dimension; a++) {
-            if (!(row[a] >= 0 && row[a] < engine->edge[a])) fold(engine, row, slot, a);
+            velocity[a] = engine->column[a][slot] * engine->thermal[slot];
         }
     }
 }
@@ -331,17 +384,25 @@ KERNEL void run(const int dimension, const int growing, Engine *engine) {
 
 // Becomes: the two kernels of an instruction set.
 #define ENGINE_KERNEL(path)                                                                        \
-    static void run_2d(Engine *engine) {                                                           \
-        run(2, 0, engine);                                                                         \
+    ENGINE_KERNEL_OF(2, path)                                                                      \
+    ENGINE_KERNEL_OF(3, path)
+#define ENGINE_KERNEL_OF(dimension, path)                                                          \
+    static void run_##dimension(Engine *engine) {                                                  \
+        run(dimension, 0, engine);                                                                 \
     }                                                                                              \
-    static void run_3d(Engine *engine) {                                                           \
-        run(3, 0, engine);                                                                         \
+    static void grow_##dimension(Engine *engine) {                                                 \
+        run(dimension, 1, engine);                                                                 \
     }                                                                                              \
-    static void grow_2d(Engine *engine) {                                                          \
-        run(2, 1, engine);                                                                         \
+    static void redraw_##dimension(Engine *engine) {                                               \
+        redraw_all(dimension, engine);                                                             \
     }                                                                                              \
-    static void grow_3d(Engine *engine) {                                                          \
-        run(3, 1, engine);                                                                         \
+    static size_t list_##dimension(Engine *engine, size_t cell, const Span *spans, int count,      \
+                                   size_t end) {                                                   \
+        return list_cell(dimension, engine, cell, spans, count, end);                              \
     }                                                                                              \
-    const EngineKernel engine_kernel_2d_##path = {run_2d, grow_2d};                                \
-    const EngineKernel engine_kernel_3d_##path = {run_3d, grow_3d};
+    const EngineKernel engine_kernel_##dimension##d_##path = {                                     \
+        .run_window = run_##dimension,                                                             \
+        .run_growing = grow_##dimension,                                                           \
+        .redraw = redraw_##dimension,                                                              \
+        .list_cell = list_##dimension,                                                             \
+    };

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -19,7 +20,7 @@
 
 #define KERNEL static inline __attribute__((always_inline))
 
-typedef double Lanes __attribute__((vector_size(8 * LANES), aligned(8 * LANES)));
+typedef double Lanes __attribute__((vector_size(8 * LANES), aligned(8 * LANES), may_alias));
 typedef int64_t LaneBits __attribute__((vector_size(8 * LANES)));
 #if LANES == 8
 typedef __mmask8 Where; // one bit per lane
@@ -86,6 +87,56 @@ KERNEL Lanes lanes_nearest(Lanes r, Lanes edge, Lanes half) {
 #else
     r -= (Lanes)((LaneBits)edge & (r > half));
     return r + (Lanes)((LaneBits)edge & (r < -half));
+#endif
+}
+
+// Four doubles, which every instruction set can split or join: half a row in 3D, a row in 2D.
+typedef double Quad __attribute__((vector_size(32), aligned(32), may_alias));
+
+KERNEL Quad quad_larger(Quad a, Quad b) {
+#if LANES >= 4
+    return (Quad)_mm256_max_pd((__m256d)a, (__m256d)b);
+#else
+    for (int k = 0; k < 4; k++) a[k] = a[k] > b[k] ? a[k] : b[k];
+    return a;
+#endif
+}
+
+// Which of the four are outside [least, bound).
+KERNEL unsigned quad_bits(Quad x, Quad least, Quad bound) {
+#if LANES >= 4
+    return (unsigned)_mm256_movemask_pd((__m256d)((x < least) | (x >= bound)));
+#else
+    unsigned bits = 0;
+    for (int k = 0; k < 4; k++) bits |= (unsigned)(x[k] < least[k] || x[k] >= bound[k]) << k;
+    return bits;
+#endif
+}
+
+KERNEL Lanes lanes_load_at(const double *from) { // at any address
+    Lanes lanes;
+    memcpy(&lanes, from, sizeof lanes);
+    return lanes;
+}
+
+// Writes first + k step for each set bit k; room for LANES numbers is needed.
+KERNEL void lanes_pack_numbers(uint32_t *to, unsigned bits, uint32_t first, uint32_t step) {
+#if LANES == 8
+    const __m256i count = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    const __m256i numbers = _mm256_add_epi32(
+        _mm256_set1_epi32((int)first), _mm256_mullo_epi32(count, _mm256_set1_epi32((int)step)));
+    _mm256_storeu_si256((__m256i *)to, _mm256_maskz_compress_epi32((__mmask8)bits, numbers));
+#else
+    for (; bits; bits &= bits - 1) *to++ = first + step * (unsigned)__builtin_ctz(bits);
+#endif
+}
+
+// Writes the lanes of the set bits; room for LANES values is needed.
+KERNEL void lanes_pack(double *to, unsigned bits, Lanes values) {
+#if LANES == 8
+    _mm512_storeu_pd(to, _mm512_maskz_compress_pd((__mmask8)bits, (__m512d)values));
+#else
+    for (; bits; bits &= bits - 1) *to++ = values[__builtin_ctz(bits)];
 #endif
 }
 

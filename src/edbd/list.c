@@ -34,8 +34,8 @@ static size_t grid_size(const Grid *grid) {
 }
 
 static int cell_along(const Grid *grid, int axis, double x) {
-    const int cell = (int)(x * grid->per_length[axis]);
-    return cell < grid->cells[axis] ? cell : grid->cells[axis] - 1;
+    const double cell = x * grid->per_length[axis], last = grid->cells[axis] - 1;
+    return cell > 0 ? (int)(cell < last ? cell : last) : 0; // whatever x is
 }
 
 // A box with more cells than particles gains nothing from them: widen until they fit.
@@ -93,6 +93,7 @@ static void place_anchors(Engine *engine) {
         const double *row = engine->rows + engine->row * slot;
         for (int a = 0; a < engine->dimension; a++) {
             engine->list.anchor[ANCHOR * slot + (size_t)a] = row[a];
+            engine->column[a][slot] = row[a];
         }
     }
     double *nobody = engine->rows + engine->row * engine->count;
@@ -146,48 +147,23 @@ static Status grow_neighbours(NeighbourList *list, size_t used, size_t wanted) {
     return OK;
 }
 
-static double pair_distance2(const Engine *engine, size_t p, size_t q) {
-    const double *i = engine->rows + engine->row * p, *j = engine->rows + engine->row * q;
-    double r2 = 0;
-    for (int a = 0; a < engine->dimension; a++) {
-        double r = i[a] - j[a];
-        r -= engine->edge[a] * rint(r / engine->edge[a]);
-        r2 += r * r;
-    }
-    return r2;
-}
-
-// Lists the neighbours of `slot` that lie in one cell; returns the new end of its list.
-static size_t list_cell(Engine *engine, uint32_t slot, size_t cell, size_t end) {
-    NeighbourList *list = &engine->list;
-    for (uint32_t other = engine->cell_start[cell]; other < engine->cell_start[cell + 1]; other++) {
-        if (other == slot) continue;
-        const double contact = engine->radius[slot] + engine->radius[other];
-        const double range = contact * engine->scale + list->skin;
-        if (pair_distance2(engine, slot, other) >= range * range) continue;
-        list->neighbour[end] = other;
-        list->contact2[end++] = contact * contact;
-        if (other < slot) continue;
-        list->first[list->pairs] = slot;
-        list->second[list->pairs] = other;
-        list->pair_contact2[list->pairs++] = contact * contact;
-    }
-    return end;
-}
-
 static int wrap(int cell, int cells) {
     return cell < 0 ? cell + cells : cell >= cells ? cell - cells : cell;
 }
 
-// Room for the neighbours of one more particle, were all of the 27 cells' particles in range.
-static Status make_room(Engine *engine, size_t candidates, size_t end) {
-    TRY(grow_pairs(&engine->list, engine->list.pairs + candidates + BLOCK));
-    return grow_neighbours(&engine->list, end, end + candidates + 2 * BLOCK);
+// Adds the slots of a cell to the spans, of which neighbouring cells along x make one.
+static int add_span(const Engine *engine, size_t cell, Span spans[27], int count) {
+    const Span span = {engine->cell_start[cell], engine->cell_start[cell + 1]};
+    if (span.from == span.to) return count;
+    if (count > 0 && spans[count - 1].to == span.from)
+        spans[count - 1].to = span.to;
+    else
+        spans[count++] = span;
+    return count;
 }
 
-static Status list_slot(Engine *engine, const Grid *grid, uint32_t slot, size_t *end) {
-    size_t cell = engine->cell_of[slot], around[27], cells = 0, candidates = 0;
-    int at[3], reach[3];
+static int spans_around(const Engine *engine, const Grid *grid, size_t cell, Span spans[27]) {
+    int at[3], reach[3], count = 0;
     for (int a = 0; a < 3; a++) {
         at[a] = (int)(cell % (size_t)grid->cells[a]);
         cell /= (size_t)grid->cells[a];
@@ -195,43 +171,48 @@ static Status list_slot(Engine *engine, const Grid *grid, uint32_t slot, size_t 
     }
     for (int z = -reach[2]; z <= reach[2]; z++) {
         for (int y = -reach[1]; y <= reach[1]; y++) {
+            const size_t row = (size_t)wrap(at[2] + z, grid->cells[2]) * (size_t)grid->cells[1] +
+                               (size_t)wrap(at[1] + y, grid->cells[1]);
             for (int x = -reach[0]; x <= reach[0]; x++) {
-                const size_t row =
-                    (size_t)wrap(at[2] + z, grid->cells[2]) * (size_t)grid->cells[1] +
-                    (size_t)wrap(at[1] + y, grid->cells[1]);
-                const size_t other =
-                    row * (size_t)grid->cells[0] + (size_t)wrap(at[0] + x, grid->cells[0]);
-                around[cells++] = other;
-                candidates += engine->cell_start[other + 1] - engine->cell_start[other];
+                count = add_span(
+                    engine, row * (size_t)grid->cells[0] + (size_t)wrap(at[0] + x, grid->cells[0]),
+                    spans, count);
             }
         }
     }
-    TRY(make_room(engine, candidates, *end));
-    for (size_t c = 0; c < cells; c++) *end = list_cell(engine, slot, around[c], *end);
-    return OK;
+    return count;
 }
 
-static Status list_pairs(Engine *engine, const Grid *grid) {
+// Room for the neighbours of a cell's particles, were all candidates in range.
+static Status make_room(Engine *engine, size_t cell, const Span *spans, int count, size_t end) {
+    const size_t own = engine->cell_start[cell + 1] - engine->cell_start[cell];
+    size_t candidates = BLOCK;
+    for (int s = 0; s < count; s++) candidates += spans[s].to - spans[s].from;
+    TRY(grow_pairs(&engine->list, engine->list.pairs + own * candidates + 2 * BLOCK));
+    return grow_neighbours(&engine->list, end, end + own * candidates + 2 * BLOCK);
+}
+
+static void end_lists(Engine *engine, size_t end) {
     NeighbourList *list = &engine->list;
-    const uint32_t nobody = (uint32_t)engine->count;
-    size_t end = 0;
-    list->pairs = 0;
-    for (size_t cell = 0, slot = 0; cell < grid_size(grid); cell++) {
-        for (; slot < engine->cell_start[cell + 1]; slot++) engine->cell_of[slot] = (uint32_t)cell;
-    }
-    for (uint32_t slot = 0; slot < nobody; slot++) {
-        list->start[slot] = (uint32_t)end;
-        TRY(list_slot(engine, grid, slot, &end));
-        for (; end % BLOCK; end++) {
-            list->neighbour[end] = nobody;
-            list->contact2[end] = 0;
-        }
-    }
-    list->start[nobody] = (uint32_t)end;
+    const uint32_t nobody = (uint32_t)(engine->count * engine->row);
+    list->start[engine->count] = (uint32_t)end;
     for (; list->pairs % BLOCK; list->pairs++) {
         list->first[list->pairs] = list->second[list->pairs] = nobody;
         list->pair_contact2[list->pairs] = 0;
     }
+}
+
+static Status list_pairs(Engine *engine, const Grid *grid) {
+    size_t end = 0;
+    engine->list.pairs = 0;
+    for (size_t cell = 0; cell < grid_size(grid); cell++) {
+        if (engine->cell_start[cell] == engine->cell_start[cell + 1]) continue;
+        Span spans[27];
+        const int count = spans_around(engine, grid, cell, spans);
+        TRY(make_room(engine, cell, spans, count, end));
+        end = engine->kernel->list_cell(engine, cell, spans, count, end);
+    }
+    end_lists(engine, end);
     return OK;
 }
 
