@@ -11,9 +11,11 @@
 #include <string.h>
 
 static const int64_t SNAPSHOT_WINDOWS = 8; // windows at most done again after a failed list
-static const double LIST_MARGIN = 4.5;     // rebuild this many thermal flights before the end
-static const double BOX_DIAMETERS = 2.2;   // shortest edge, in largest diameters
-static const double FLIGHT_MOST = 0.05;    // thermal flight in a window, in d
+// Rebuild this many thermal flights of a window before the end of the skin: few where one window
+// does not tell of the next, more where the fastest particle goes on.
+static const double MARGIN_DIFFUSIVE = 2.5, MARGIN_BALLISTIC = 4.5;
+static const double BOX_DIAMETERS = 2.2; // shortest edge, in largest diameters
+static const double FLIGHT_MOST = 0.05;  // thermal flight in a window, in d
 static const int64_t PARTICLES_MOST = 1 << 28;
 
 static Status allocate(Engine *engine) {
@@ -25,6 +27,7 @@ static Status allocate(Engine *engine) {
     TRY(NEW_ARRAY(engine->radius, slots + BLOCK));
     TRY(NEW_ARRAY(engine->mass, slots));
     TRY(NEW_ARRAY(engine->thermal, slots + BLOCK));
+    TRY(NEW_ARRAY(engine->thermal_of, count));
     TRY(NEW_ARRAY(engine->stamp, slots));
     for (int a = 0; a < engine->dimension; a++) {
         TRY(NEW_ARRAY(engine->column[a], slots + BLOCK));
@@ -56,8 +59,12 @@ static void take_in(Engine *engine) {
             row[engine->row / 2 + (size_t)a] = state->velocity[a][i];
         }
         engine->largest = fmax(engine->largest, state->diameter[i]);
-        engine->fastest = fmax(engine->fastest, 1 / sqrt(state->mass[i]));
+        engine->thermal_of[i] = 1 / sqrt(state->mass[i]);
+        engine->fastest = fmax(engine->fastest, engine->thermal_of[i]);
     }
+    const bool diffusive = engine->settings.redraw && engine->settings.windows_per_step == 1;
+    engine->margin = (diffusive ? MARGIN_DIFFUSIVE : MARGIN_BALLISTIC) * engine->fastest *
+                     engine->settings.window;
 }
 
 static Status give_out(Engine *engine) {
@@ -111,6 +118,7 @@ void engine_free(Engine *engine) {
     memory_free(engine->radius);
     memory_free(engine->mass);
     memory_free(engine->thermal);
+    memory_free(engine->thermal_of);
     memory_free(engine->stamp);
     for (int a = 0; a < 3; a++) {
         memory_free(engine->column[a]);
@@ -240,7 +248,7 @@ static Status one_window(Engine *engine) {
     const double reach = list_reach(engine);
     const bool list_failed = !(engine->list.farthest2 <= reach * reach) || reach < 0;
     if (list_failed || engine->outgrown) return replay(engine, list_failed);
-    const double left = reach - LIST_MARGIN * engine->fastest * engine->settings.window;
+    const double left = reach - engine->margin;
     if (engine->careful > 0) engine->careful--;
     if (engine->list.farthest2 > left * left || left < 0 || engine->careful > 0)
         return renew_list(engine);

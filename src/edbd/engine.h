@@ -80,13 +80,15 @@ struct Engine {
     double *spare_rows; // the same, for reordering
     uint32_t *id;       // [count] of each slot
     uint32_t *spare_id;
-    double *radius;    // [count]
-    double *mass;      // [count]
-    double *column[3]; // [count + BLOCK] scratch: normal numbers; positions while listing
-    double *thermal;   // [count] 1/sqrt(mass)
-    uint32_t *stamp;   // [count + 1] collisions of each in this window
-    double largest;    // diameter
-    double fastest;    // thermal velocity
+    double *radius;     // [count]
+    double *mass;       // [count]
+    double *column[3];  // [count + BLOCK] scratch: normal numbers; positions while listing
+    double *thermal;    // [count] 1/sqrt(mass)
+    uint32_t *stamp;    // [count + 1] collisions of each in this window
+    double *thermal_of; // [count] the same, by id
+    double largest;     // diameter
+    double fastest;     // thermal velocity
+    double margin;      // the list is rebuilt when this is left of its reach, in d
 
     NeighbourList list;
     uint32_t *cell_of;    // [count]

@@ -25,22 +25,26 @@ typedef struct Growth {
     double scale, rate;
 } Growth;
 
-// From separations at virtual origins, at time s.
-KERNEL Gap gap_of(const int dimension, const int growing, const Engine *engine, Lanes r[3],
-                  const Lanes v[3], Lanes contact2, double s, Growth growth) {
-    Lanes r2 = {0}, rv = {0}, v2 = {0};
+KERNEL void take_nearest(const int dimension, const Engine *engine, Lanes r[3]) {
     for (int a = 0; a < dimension; a++) {
         r[a] = lanes_nearest(r[a], lanes_all(engine->edge[a]), lanes_all(engine->edge[a] / 2));
-        r[a] += v[a] * s;
-        r2 += r[a] * r[a];
-        rv += r[a] * v[a];
-        v2 += v[a] * v[a];
+    }
+}
+
+// From separations at time s.
+KERNEL Gap gap_of(const int dimension, const int growing, const Lanes r[3], const Lanes v[3],
+                  Lanes contact2, double s, Growth growth) {
+    Lanes r2 = {0}, rv = {0}, v2 = {0};
+    for (int a = 0; a < dimension; a++) {
+        r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
+        rv = a == 0 ? r[a] * v[a] : rv + r[a] * v[a];
+        v2 = a == 0 ? v[a] * v[a] : v2 + v[a] * v[a];
     }
     if (!growing) return (Gap){.a = v2, .b = rv, .c = r2 - contact2};
     const double scale = growth.scale + growth.rate * s;
-    return (Gap){.a = v2 - contact2 * (growth.rate * growth.rate),
-                 .b = rv - contact2 * (scale * growth.rate),
-                 .c = r2 - contact2 * (scale * scale)};
+    return (Gap){.a = v2 - contact2 * lanes_all(growth.rate * growth.rate),
+                 .b = rv - contact2 * lanes_all(scale * growth.rate),
+                 .c = r2 - contact2 * lanes_all(scale * scale)};
 }
 
 // Pairs that meet within `left`: approaching, and either overlapping by then or having passed
@@ -103,7 +107,8 @@ KERNEL Gap pair_gap(const int dimension, const int growing, const Engine *engine
     }
     Lanes r[3], v[3];
     lanes_separate(dimension, i, j, r, v);
-    return gap_of(dimension, growing, engine, r, v, contact2, 0, growth);
+    take_nearest(dimension, engine, r);
+    return gap_of(dimension, growing, r, v, contact2, 0, growth);
 }
 
 // Which pairs of the list meet in this window; returns how many are in list->hits.
@@ -155,8 +160,9 @@ KERNEL void predict_one(const int dimension, const int growing, Engine *engine, 
         }
         Lanes r[3], v[3];
         lanes_separate(dimension, i, j, r, v);
-        const Gap gap =
-            gap_of(dimension, growing, engine, r, v, lanes_load(list->contact2 + n), s, growth);
+        take_nearest(dimension, engine, r);
+        for (int a = 0; a < dimension; a++) r[a] += v[a] * lanes_all(s);
+        const Gap gap = gap_of(dimension, growing, r, v, lanes_load(list->contact2 + n), s, growth);
         unsigned bits = lanes_bits(gap_closes(growing, gap, engine->settings.window - s));
         if (!bits) continue;
         const Lanes time = lanes_all(s) + gap_time(gap);

@@ -28,8 +28,14 @@ typedef __mmask8 Where; // one bit per lane
 typedef LaneBits Where; // all ones in the lanes where it is true
 #endif
 
-KERNEL Lanes lanes_all(double value) {
-    return (Lanes){0} + value;
+KERNEL Lanes lanes_all(double x) {
+#if LANES == 8
+    return (Lanes){x, x, x, x, x, x, x, x};
+#elif LANES == 4
+    return (Lanes){x, x, x, x};
+#else
+    return (Lanes){x, x};
+#endif
 }
 KERNEL Lanes lanes_load(const double *from) {
     return *(const Lanes *)from;
@@ -82,11 +88,11 @@ KERNEL Lanes lanes_positive(Lanes x) {
 // The nearest image of a separation between two points of the box.
 KERNEL Lanes lanes_nearest(Lanes r, Lanes edge, Lanes half) {
 #if LANES == 8
-    r = (Lanes)_mm512_mask_sub_pd((__m512d)r, lanes_less(half, r), (__m512d)r, (__m512d)edge);
-    return (Lanes)_mm512_mask_add_pd((__m512d)r, lanes_less(r, -half), (__m512d)r, (__m512d)edge);
+    const Where above = lanes_less(half, r), below = lanes_less(r, -half);
+    r = (Lanes)_mm512_mask_sub_pd((__m512d)r, above, (__m512d)r, (__m512d)edge);
+    return (Lanes)_mm512_mask_add_pd((__m512d)r, below, (__m512d)r, (__m512d)edge);
 #else
-    r -= (Lanes)((LaneBits)edge & (r > half));
-    return r + (Lanes)((LaneBits)edge & (r < -half));
+    return r - (Lanes)((LaneBits)edge & (r > half)) + (Lanes)((LaneBits)edge & (r < -half));
 #endif
 }
 

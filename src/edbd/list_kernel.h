@@ -14,10 +14,10 @@ KERNEL unsigned near_slots(const int dimension, const Engine *engine, uint32_t s
         const Lanes r = lanes_nearest(lanes_all(engine->column[a][slot]) -
                                           lanes_load_at(engine->column[a] + from),
                                       lanes_all(engine->edge[a]), lanes_all(engine->edge[a] / 2));
-        r2 += r * r;
+        r2 = a == 0 ? r * r : r2 + r * r;
     }
     const Lanes contact = lanes_all(engine->radius[slot]) + lanes_load_at(engine->radius + from);
-    const Lanes range = contact * engine->scale + engine->list.skin;
+    const Lanes range = contact * lanes_all(engine->scale) + lanes_all(engine->list.skin);
     *contact2 = contact * contact;
     unsigned bits = lanes_bits(lanes_less(r2, range * range));
     if (to - from < LANES) bits &= (1u << (to - from)) - 1;
