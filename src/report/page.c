@@ -34,10 +34,11 @@ static const char STYLE[] =
     "pre{background:#f6f8fa;padding:.8rem;overflow:auto;font-size:.82rem;line-height:1.4}\n"
     "code{font-family:ui-monospace,Menlo,Consolas,monospace;font-size:.9em}\n"
     "footer{margin-top:2.5rem;color:#57606a;font-size:.87rem}\n"
-    "@media (max-width:560px){.figures{grid-template-columns:1fr}}\n"
-    "@media print{body{max-width:none;padding:0;font-size:11pt}.figures{grid-template-columns:1fr "
-    "1fr}"
-    "h2{break-after:avoid}}\n";
+    "@media (max-width:800px){.figures{grid-template-columns:1fr}.a{display:none}"
+    "table{font-size:.78rem}td,th{padding:.2rem .3rem}}\n"
+    "@media print{html{font-size:9pt}body{max-width:none;padding:0;font-size:1rem}"
+    "h2{break-after:avoid}tr{break-inside:avoid}table{font-size:.85rem}td,th{padding:.1rem .35rem}"
+    "td.a{font-size:.8rem}.a{display:table-cell}.figures{grid-template-columns:1fr 1fr}}\n";
 
 static const char *fact(const Results *results, const char *name, const char *otherwise) {
     const char *text = results_find_fact(results, name);
@@ -200,7 +201,7 @@ void page_numbers(Text *page, const Results *results) {
     if (results->scalar_count == 0) return;
     text_put(page, "<h2>Numbers</h2>\n<table>\n<tr><th>Quantity</th><th class=\"n\">Value</th>"
                    "<th>Unit</th><th class=\"n\">Reference</th><th class=\"n\">Deviation</th>"
-                   "<th class=\"n\">n</th><th>About</th></tr>\n");
+                   "<th class=\"n\">n</th><th class=\"a\">About</th></tr>\n");
     for (size_t i = 0; i < results->scalar_count; i++) {
         if (begins_stage(results, i)) put_stage(page, results, results->scalars[i].stage);
     }
@@ -233,7 +234,7 @@ static void put_counter(Text *page, const ResultCounter *counter) {
 void page_health(Text *page, const Results *results) {
     if (results->health_count == 0) return;
     text_put(page, "<h2>Health</h2>\n<table>\n<tr><th>Counter</th><th class=\"n\">Value</th>"
-                   "<th class=\"n\">Limit</th><th>Verdict</th><th>About</th></tr>\n");
+                   "<th class=\"n\">Limit</th><th>Verdict</th><th class=\"a\">About</th></tr>\n");
     for (size_t i = 0; i < results->health_count; i++) put_counter(page, &results->health[i]);
     text_put(page, "</table>\n");
 }
