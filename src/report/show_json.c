@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The results as one JSON object: run, quantities, series. docs/file-format.md says what a reader
-// may rely on.
+// The results as one JSON object:
+//   "run": facts as strings, "health": {COUNTER: number}
+//   "quantities": {"STAGE/NAME": {"value", "error", "unit", "n", "about"}}
+//   "series": {"STAGE/OBSERVABLE": {"axes": names, "axis_units", AXIS: values or labels...,
+//              "mean" and "error", nested in the order of the axes, "unit", "about"}}
+// What is no number is null.
 #include "report/show.h"
 
 #include "report/json.h"
