@@ -27,10 +27,15 @@ typedef struct TreeReader {
 
 __attribute__((format(printf, 4, 0))) static Status
 fail_at(const char *source, int line, int column, const char *format, va_list arguments) {
-    char sentence[768];
+    static const int SOURCE_SHOWN = 200; // what follows must have room in the sentence
+    char sentence[640];
+    const char *more = strlen(source) > (size_t)SOURCE_SHOWN ? "..." : "";
     vsnprintf(sentence, sizeof sentence, format, arguments);
-    if (line == 0) return status_fail(BAD_DATA, "--set %s: error: %s", source, sentence);
-    return status_fail(BAD_DATA, "%s:%d:%d: error: %s", source, line, column, sentence);
+    if (line == 0)
+        return status_fail(BAD_DATA, "--set %.*s%s: error: %s", SOURCE_SHOWN, source, more,
+                           sentence);
+    return status_fail(BAD_DATA, "%.*s%s:%d:%d: error: %s", SOURCE_SHOWN, source, more, line,
+                       column, sentence);
 }
 
 const char *tree_quote(char out[QUOTE_SIZE], const char *text) {
