@@ -50,14 +50,14 @@ bench: build-tests
 sanitize:
 	@tools/setup.sh build test
 	@CC=clang-14 $(CONFIGURE) -B build-sanitize -DCMAKE_BUILD_TYPE=Debug \
-	    -DCMAKE_C_FLAGS_DEBUG="-O1 -g" -DPERRIN_SANITIZE=address,undefined >/dev/null
+	    -DPERRIN_SANITIZE=address,undefined >/dev/null
 	@$(MAKE) -s -C build-sanitize $(PARALLEL)
 	@cd build-sanitize && ctest --output-on-failure -L unit -j$(shell nproc)
 
 fuzz:
 	@tools/setup.sh build test
 	@CC=clang-14 $(CONFIGURE) -B build-fuzz -DCMAKE_BUILD_TYPE=Debug -DPERRIN_FUZZ=ON \
-	    -DCMAKE_C_FLAGS_DEBUG="-O1 -g" -DPERRIN_SANITIZE=address,undefined >/dev/null
+	    -DPERRIN_SANITIZE=address,undefined >/dev/null
 	@$(MAKE) -s -C build-fuzz $(PARALLEL)
 	@tools/fuzz.sh build-fuzz $(FUZZ_SECONDS)
 

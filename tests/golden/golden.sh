@@ -43,11 +43,8 @@ same_as_reference() { # DIR
     echo "$1: same bits"
 }
 
-recipe() {
-    grep -E '^CMAKE_(BUILD_TYPE|C_FLAGS[A-Z_]*):|^PERRIN_SANITIZE' "$1/CMakeCache.txt" | sed 's/:[A-Z]*=/=/'
-    readlink -f "$(sed -n 's/^CMAKE_C_COMPILER:[A-Z]*=//p' "$1/CMakeCache.txt")"
-}
-same_recipe() { [ "$(recipe "$1")" = "$(recipe "$build")" ]; }
+# Version, commit, compiler and flags are those of BUILD.
+same_recipe() { [ "$("$build/perrin" version)" = "$("$1/perrin" version)" ]; }
 
 golden_run reference --threads 1 || fail "$(cat reference.out)"
 results reference >reference.json
