@@ -42,6 +42,7 @@ Lags lags_of(const Clock *clock, double first, double last, int64_t per_decade, 
                                                           : lags.spacing;
         append(&lags, round_near(lag, unit));
     }
+    append(&lags, round_near((double)longest, longest < step ? 1 : lags.spacing));
     while (lags.count > 1 && lags.ticks[lags.count - 1] > clock->ticks) lags.count--;
     lags.slots = (size_t)between(lags.ticks[lags.count - 1] / lags.spacing, 1, INT64_MAX);
     return lags;
