@@ -359,8 +359,8 @@ KERNEL void move_all(const int dimension, Engine *engine) {
         else
             away2 += __builtin_shufflevector(away2, away2, 1, 0, 3, 2);
         if (dimension == 3) away2 += __builtin_shufflevector(away2, away2, 2, 3, 0, 1);
-        farthest = quad_larger(away2, farthest);
-        if (__builtin_expect(quad_bits(place, least, bound) != 0, 0)) {
+        quad_keep_larger(&farthest, &away2);
+        if (__builtin_expect(quad_strays(&place, &least, &bound), 0)) {
             for (int a = 0; a < dimension; a++) fold(engine, row, slot, a);
         }
     }

@@ -99,23 +99,22 @@ KERNEL Lanes lanes_nearest(Lanes r, Lanes edge, Lanes half) {
 // Four doubles, which every instruction set can split or join: half a row in 3D, a row in 2D.
 typedef double Quad __attribute__((vector_size(32), aligned(32), may_alias));
 
-KERNEL Quad quad_larger(Quad a, Quad b) {
+KERNEL void quad_keep_larger(Quad *most, const Quad *other) {
 #if LANES >= 4
-    return (Quad)_mm256_max_pd((__m256d)a, (__m256d)b);
+    *most = (Quad)_mm256_max_pd((__m256d)*most, (__m256d)*other);
 #else
-    for (int k = 0; k < 4; k++) a[k] = a[k] > b[k] ? a[k] : b[k];
-    return a;
+    for (int k = 0; k < 4; k++) (*most)[k] = (*other)[k] > (*most)[k] ? (*other)[k] : (*most)[k];
 #endif
 }
 
-// Which of the four are outside [least, bound).
-KERNEL unsigned quad_bits(Quad x, Quad least, Quad bound) {
+// Is any of the four outside [least, bound)?
+KERNEL int quad_strays(const Quad *x, const Quad *least, const Quad *bound) {
 #if LANES >= 4
-    return (unsigned)_mm256_movemask_pd((__m256d)((x < least) | (x >= bound)));
+    return _mm256_movemask_pd((__m256d)((*x < *least) | (*x >= *bound)));
 #else
-    unsigned bits = 0;
-    for (int k = 0; k < 4; k++) bits |= (unsigned)(x[k] < least[k] || x[k] >= bound[k]) << k;
-    return bits;
+    int strays = 0;
+    for (int k = 0; k < 4; k++) strays |= (*x)[k] < (*least)[k] || (*x)[k] >= (*bound)[k];
+    return strays;
 #endif
 }
 
