@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The lags of a correlation function: spaced evenly in log(time), many time origins, bounded
 // memory. Origins lie `spacing` ticks apart, at whole steps, and the last `slots` of them are kept
-// in a ring. A lag shorter than the spacing is seen once from each origin; a longer one is a
-// multiple of the spacing and is seen from every origin, the windows overlapping. A lag longer
-// than a step is a whole number of steps: a walk by whole intervals has no sub-interval phase.
+// in a ring; each lag is seen from every origin. Long lags are multiples of the spacing, so that
+// they end where another origin is and need no look of their own. A lag longer than a step is a
+// whole number of steps: a walk by whole intervals has no sub-interval phase.
 #pragma once
 
 #include "observables/observables.h"
@@ -21,14 +21,16 @@ typedef struct Lags {
 // `origins` are the time origins that fit into the last lag.
 Lags lags_of(const Clock *clock, double first, double last, int64_t per_decade, int64_t origins);
 
-// The first tick after `after` that is an origin or a short lag after one; INT64_MAX past the end.
+// The first tick after `after` that is an origin or at which a lag ends; INT64_MAX past the end.
 int64_t lags_next(const Lags *lags, const Clock *clock, int64_t after);
-
-// Lags [*begin, *end) that end at `tick`.
-void lags_ending(const Lags *lags, int64_t tick, size_t *begin, size_t *end);
 
 static inline bool lags_is_origin(const Lags *lags, int64_t tick) {
     return tick % lags->spacing == 0;
+}
+
+// Does lag `k` end at `tick`, having begun at an origin?
+static inline bool lags_ends(const Lags *lags, int64_t tick, size_t k) {
+    return tick >= lags->ticks[k] && lags_is_origin(lags, tick - lags->ticks[k]);
 }
 
 // The ring's slot of the origin from which lag `k` ends at `tick`.

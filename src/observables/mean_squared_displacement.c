@@ -161,9 +161,8 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
         double *now = msd->now + (size_t)a * msd->particles;
         for (size_t i = 0; i < msd->particles; i++) now[i] = state_unfolded(state, a, i);
     }
-    size_t begin, end;
-    lags_ending(&msd->lags, tick, &begin, &end);
-    for (size_t k = begin; k < end; k++) {
+    for (size_t k = 0; k < msd->lags.count; k++) {
+        if (!lags_ends(&msd->lags, tick, k)) continue;
         add_displacements(msd, k, msd->ring + lags_slot(&msd->lags, tick, k) * frame_size(msd));
     }
     if (!lags_is_origin(&msd->lags, tick)) return OK;

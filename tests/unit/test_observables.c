@@ -74,7 +74,12 @@ START_TEST(lags_ascend_and_are_whole_steps_beyond_a_step) {
     for (size_t k = 0; k < lags.count; k++) {
         if (k > 0) ck_assert_int_gt(lags.ticks[k], lags.ticks[k - 1]);
         if (lags.ticks[k] > 16) ck_assert_int_eq(lags.ticks[k] % 16, 0);
-        if (lags.ticks[k] > lags.spacing) ck_assert_int_eq(lags.ticks[k] % lags.spacing, 0);
+        if (lags.ticks[k] > 17 * lags.spacing) ck_assert_int_eq(lags.ticks[k] % lags.spacing, 0);
+        // Beyond the shortest lags no step of the ladder is far from 10^(1/10) = 1.26.
+        if (lags.ticks[k] > 10 * 16) {
+            const double ratio = (double)lags.ticks[k] / (double)lags.ticks[k - 1];
+            ck_assert_double_eq_tol(ratio, 1.26, k + 1 < lags.count ? 0.1 : 0.2);
+        }
         has_one_step |= lags.ticks[k] == 16;
     }
     ck_assert(has_one_step);
