@@ -6,10 +6,12 @@
 // interval take, and tends to D0 with the interval.
 //
 // Long time: the slope of a straight line a + 2 dim D t, weighted by 1/t^2 (errors grow with t).
-// The window ends at the last lag. It begins at the earliest lag from which on the slope no longer
-// changes: the slopes of its two halves (in log t) agree within AGREEMENT standard errors of
-// their difference over replicas. Where there is no such lag, or one replica only, it is the last
-// LAST_STRETCH in time; the slope is then an upper bound on the diffusion coefficient.
+// The window ends at the last lag. To see where the slope stops changing, stretches of lags that
+// end there are cut into halves (in log t): the earliest stretch is taken whose halves have slopes
+// that agree within AGREEMENT standard errors of their difference over replicas. Its later half is
+// the window; its earlier half is the proof that the window is long after the change. Where no
+// stretch is like that, or with one replica, the window is the last LAST_STRETCH in time; the slope
+// is then an upper bound on the diffusion coefficient.
 #include "analysis/derive.h"
 #include "base/memory.h"
 #include "numerics/fit.h"
@@ -77,7 +79,7 @@ static bool halves_agree(const Curve *curve, size_t begin, size_t end) {
 
 static size_t window_begin(const Curve *curve) {
     for (size_t begin = 0; begin + 2 * HALF_LEAST <= curve->lags; begin++) {
-        if (halves_agree(curve, begin, curve->lags)) return begin;
+        if (halves_agree(curve, begin, curve->lags)) return middle(curve, begin, curve->lags);
     }
     size_t begin = 0;
     const double last = curve->times[curve->lags - 1];
@@ -120,10 +122,11 @@ static Status put_long(Results *results, const Curve *curve, const char *species
         TRY(put(results, curve, "long_time_diffusion", species, unit,
                 "Slope of <r^2>/(2 dim) against t, from long_time_window to the last lag.", replica,
                 slope(curve, replica, begin, curve->lags)));
-        TRY(put(results, curve, "long_time_window", species, curve->series->axis[2].unit,
-                "Where the slope stops changing: the halves of the window from here on agree "
-                "within two standard errors, or else it is the last three quarters of time.",
-                replica, curve->times[begin]));
+        TRY(put(
+            results, curve, "long_time_window", species, curve->series->axis[2].unit,
+            "Start of the fit: over as long before it in log t the slope is the same within two "
+            "standard errors; or else a quarter of the last lag.",
+            replica, curve->times[begin]));
     }
     return OK;
 }
