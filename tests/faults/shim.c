@@ -5,8 +5,10 @@
 //   FAULT_WHAT     EIO, ENOSPC, EDQUOT, EINTR, or SHORT (half of a transfer is done)
 //   FAULT_FOREVER  set: that call and all later ones
 //   FAULT_COUNT    file to which the number of calls is written at the end
-// Counted: write, pwrite, fsync, fdatasync, renameat, rename, ftruncate, posix_fallocate, and close
-// of files opened for writing. Not the lock: its text is for people, and closing it cannot lose.
+//   FAULT_TRACE    file to which each call is written, with the path it is made on
+// mkdirat is traced and does not fail. The others: write, pwrite, fsync, fdatasync, renameat,
+// rename, ftruncate, posix_fallocate, and close of files opened for writing. Not the lock: its text
+// is for people, and closing it cannot lose.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -52,11 +54,22 @@ static bool path_of(int file, char path[PATH_MAX]) {
     return true;
 }
 
-static bool ours(int file) {
+static void trace(const char *call, const char *path, const char *name) {
+    const char *trace = getenv("FAULT_TRACE");
+    FILE *file = trace ? fopen(trace, "a") : NULL;
+    if (!file) return;
+    fprintf(file, "%s %s%s%s\n", call, path, name ? "/" : "", name ? name : "");
+    fclose(file);
+}
+
+// A call on this file counts; of one in a folder, `name` is the file's.
+static bool ours(const char *call, int file, const char *name) {
     const char *folder = getenv("FAULT_DIR");
     char path[PATH_MAX];
     if (!folder || !path_of(file, path) || strstr(path, "/perrin.lock")) return false;
-    return strncmp(path, folder, strlen(folder)) == 0;
+    if (strncmp(path, folder, strlen(folder)) != 0) return false;
+    trace(call, path, name);
+    return true;
 }
 
 static bool written(int file) {
@@ -74,44 +87,50 @@ static int fault(void) {
 }
 
 ssize_t write(int file, const void *bytes, size_t size) {
-    const bool struck = ours(file) && strikes();
+    const bool struck = ours("write", file, NULL) && strikes();
     if (struck && fault() < 0) return -1;
     return REAL(write)(file, bytes, struck ? (size + 1) / 2 : size);
 }
 
 ssize_t pwrite(int file, const void *bytes, size_t size, off_t place) {
-    const bool struck = ours(file) && strikes();
+    const bool struck = ours("write", file, NULL) && strikes();
     if (struck && fault() < 0) return -1;
     return REAL(pwrite)(file, bytes, struck ? (size + 1) / 2 : size, place);
 }
 
 int fsync(int file) {
-    if (ours(file) && strikes() && fault() < 0) return -1;
+    if (ours("sync", file, NULL) && strikes() && fault() < 0) return -1;
     return REAL(fsync)(file);
 }
 
 int fdatasync(int file) {
-    if (ours(file) && strikes() && fault() < 0) return -1;
+    if (ours("sync", file, NULL) && strikes() && fault() < 0) return -1;
     return REAL(fdatasync)(file);
 }
 
 int ftruncate(int file, off_t size) {
-    if (ours(file) && strikes() && fault() < 0) return -1;
+    if (ours("write", file, NULL) && strikes() && fault() < 0) return -1;
     return REAL(ftruncate)(file, size);
 }
 
 int posix_fallocate(int file, off_t place, off_t size) {
-    if (ours(file) && strikes() && fault() < 0) return errno;
+    if (ours("write", file, NULL) && strikes() && fault() < 0) return errno;
     return REAL(posix_fallocate)(file, place, size);
 }
 
 int renameat(int from, const char *name, int to, const char *new_name) {
-    if (ours(from) && strikes() && fault() < 0) return -1;
+    if (ours("rename", from, new_name) && strikes() && fault() < 0) return -1;
     return REAL(renameat)(from, name, to, new_name);
 }
 
+int mkdirat(int folder, const char *name, mode_t mode) {
+    const int result = REAL(mkdirat)(folder, name, mode);
+    if (result == 0) ours("mkdir", folder, name);
+    return result;
+}
+
 int close(int file) {
-    const bool struck = ours(file) && written(file) && strikes();
+    const bool struck = written(file) && ours("close", file, NULL) && strikes();
     const int result = REAL(close)(file);
     return struck && fault() < 0 ? -1 : result;
 }
