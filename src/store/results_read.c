@@ -8,6 +8,7 @@
 #include "store/seal.h"
 
 #include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +17,8 @@
 #include <unistd.h>
 
 static const size_t SPARE_MEMORY = (size_t)1 << 30; // for HDF5 and the numbers of small files
-static const unsigned SECONDS_MOST = 60;            // for files that make HDF5 go round and round
+static const size_t BYTES_PER_SECOND = 20000000;    // slower than any processor reads numbers
+static const unsigned PATIENCE = 60;                // seconds of wall time, should the child wait
 
 // The address sanitizer maps terabytes that nobody uses: no limit on memory can be set beside it.
 #if defined(__has_feature)
@@ -49,8 +51,9 @@ static size_t memory_mapped(void) {
 static void limit_child(size_t file_size) {
     if (!SHADOWED) limit(RLIMIT_AS, memory_mapped() + SPARE_MEMORY + 8 * file_size);
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, SECONDS_MOST);
-    alarm(SECONDS_MOST);
+    limit(RLIMIT_CPU, 2 + file_size / BYTES_PER_SECOND); // a file can send HDF5 round and round
+    signal(SIGALRM, SIG_DFL);                            // whatever our caller does with it
+    alarm(PATIENCE + (unsigned)(file_size / BYTES_PER_SECOND));
 }
 
 // The child's whole life: a Status, then the results as an archive or the sentence of a failure.
