@@ -35,4 +35,5 @@ install(FILES ${CMAKE_BINARY_DIR}/public/PerrinConfig.cmake
         DESTINATION lib/cmake/Perrin)
 install(DIRECTORY examples gallery DESTINATION share/perrin)
 install(FILES docs/perrin.1 DESTINATION share/man/man1)
-install(FILES LICENSE CITATION.cff DESTINATION share/doc/perrin)
+install(DIRECTORY docs/ DESTINATION share/doc/perrin FILES_MATCHING PATTERN "*.md")
+install(FILES LICENSE CITATION.cff CHANGELOG.md DESTINATION share/doc/perrin)

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the packages of tools/packages.txt that are missing, of the groups given (build, test);
+# Installs the packages of tools/packages.txt that are missing, of the groups given;
 # does nothing, and needs no network, when all is there. Uses root or sudo; where neither is to be
 # had it names what is missing and stops.
 set -eu
