@@ -156,6 +156,7 @@ static void snapshot_take(Engine *engine) {
     for (int a = 0; a < engine->dimension; a++) {
         memcpy(snapshot->image[a], engine->state->image[a], engine->count * sizeof(int32_t));
     }
+    snapshot->left = engine->left;
     snapshot->step = engine->state->step;
     snapshot->window = engine->window;
     snapshot->scale = engine->scale;
@@ -173,6 +174,7 @@ static void snapshot_restore(Engine *engine) {
     for (int a = 0; a < engine->dimension; a++) {
         memcpy(engine->state->image[a], snapshot->image[a], engine->count * sizeof(int32_t));
     }
+    engine->left = snapshot->left;
     engine->state->step = snapshot->step;
     engine->window = snapshot->window;
     engine->scale = snapshot->scale;
@@ -181,11 +183,6 @@ static void snapshot_restore(Engine *engine) {
     engine->tally.replays = replays + 1;
     engine->tally.stale = stale;
     if (engine->log) engine->log->count = snapshot->recorded;
-}
-
-// How far a particle may be from its anchor: half of what the growth has left of the skin.
-static double list_reach(const Engine *engine) {
-    return (engine->list.skin - engine->largest * (engine->scale - engine->list.scale)) / 2;
 }
 
 static Status renew_list(Engine *engine) {
@@ -223,6 +220,8 @@ static Status replay(Engine *engine, bool list_failed) {
 }
 
 static void next_window(Engine *engine) {
+    engine->left--;
+    engine->snapshot.windows++;
     engine->tally.windows++;
     engine->list.age++;
     engine->scale += engine->growth * engine->settings.window;
@@ -231,12 +230,29 @@ static void next_window(Engine *engine) {
     engine->state->step++;
 }
 
-static Status one_window(Engine *engine) {
+// Before a particle leaves the reach of the list: look again which pairs are near, and when that
+// has used up the list itself, make a new one.
+static Status keep_list(Engine *engine) {
+    const double needed = sqrt(engine->list.farthest2) + engine->margin;
+    if (engine->careful > 0 && --engine->careful > 0) return renew_list(engine);
+    if (needed < list_reach(engine)) return OK;
+    if (!engine->list.pruned || needed + engine->margin > list_outer_reach(engine)) {
+        return renew_list(engine);
+    }
+    list_prune(engine);
+    return OK;
+}
+
+static void run_kernel(Engine *engine) {
     if (engine->window == 0 && engine->settings.redraw) redraw(engine);
     if (engine->growth != 0 || engine->scale != 1)
         engine->kernel->run_growing(engine);
     else
         engine->kernel->run_window(engine);
+}
+
+static Status one_window(Engine *engine) {
+    run_kernel(engine);
     if (engine->hung) {
         return status_fail(UNHEALTHY,
                            "a particle collided more than 1000 times within one window "
@@ -244,28 +260,20 @@ static Status one_window(Engine *engine) {
                            engine->settings.window, (long long)engine->state->step);
     }
     next_window(engine);
-    engine->snapshot.windows++;
-    const double reach = list_reach(engine);
-    const bool list_failed = !(engine->list.farthest2 <= reach * reach) || reach < 0;
+    const double reach = list_reach(engine), farthest = sqrt(engine->list.farthest2);
+    const bool list_failed = !(farthest <= reach);
     if (list_failed || engine->outgrown) return replay(engine, list_failed);
-    const double left = reach - engine->margin;
-    if (engine->careful > 0) engine->careful--;
-    if (engine->list.farthest2 > left * left || left < 0 || engine->careful > 0)
-        return renew_list(engine);
-    if (engine->snapshot.windows == SNAPSHOT_WINDOWS) snapshot_take(engine);
+    TRY(keep_list(engine));
+    if (engine->snapshot.windows >= SNAPSHOT_WINDOWS) snapshot_take(engine);
     return OK;
 }
 
-static int64_t windows_done(const Engine *engine) {
-    return engine->state->step * engine->settings.windows_per_step + engine->window;
-}
-
 Status engine_advance(Engine *engine, int64_t windows, Tally *tally) {
-    const int64_t goal = windows_done(engine) + windows;
     engine->tally = *tally;
+    engine->left = windows;
     if (engine->scale != engine->list.scale) TRY(list_build(engine));
     snapshot_take(engine);
-    while (windows_done(engine) < goal) TRY(one_window(engine));
+    while (engine->left > 0) TRY(one_window(engine));
     *tally = engine->tally;
     return give_out(engine);
 }

@@ -27,19 +27,30 @@ typedef struct Event {
 
 // Pairs nearer than contact + skin when the list was made, seen both ways: a flat half list for
 // the prediction at the start of a window, and all neighbours of each particle for predictions
-// after a collision.
+// after a collision. For short windows the half list is pruned, every now and then, to pairs
+// nearer than contact + inner skin.
 typedef struct NeighbourList {
-    double skin;
-    double scale;     // of the diameters when it was made
-    double farthest2; // square of the largest distance from an anchor since
-    int64_t age;      // windows since
-    double *anchor;   // [slots][ANCHOR]: where each was then
-    size_t pairs;     // padded to whole blocks with a pair that never meets
+    double skin, inner_skin;   // in d; inner_skin = skin: not pruned
+    double scale, inner_scale; // of the diameters when it was made, when it was pruned
+    double spent;              // displacement possible between making and pruning, in d
+    double farthest2;          // square of the largest distance from an anchor since it was pruned
+    int64_t age;               // windows since it was made
+    double *anchor;            // [slots][ANCHOR]: where each was when it was pruned
+
+    size_t pairs; // padded to whole blocks with a pair that never meets
     size_t pair_capacity;
     uint32_t *first, *second; // [pairs] where their rows begin
     double *pair_contact2;    // [pairs] square of the contact distance at scale 1
     uint32_t *hits;           // [pairs] room for those that meet in a window
-    uint32_t *start;          // [slots + 1], multiples of BLOCK
+
+    bool pruned;
+    size_t near; // the half list that is used, borrowed: the pruned one or all of it
+    uint32_t *near_first, *near_second;
+    double *near_contact2;
+    uint32_t *pruned_first, *pruned_second; // [pairs]
+    double *pruned_contact2;                // [pairs]
+
+    uint32_t *start; // [slots + 1], multiples of BLOCK
     size_t neighbour_capacity;
     uint32_t *neighbour; // [start[slots]] where their rows begin
     double *contact2;    // [start[slots]]
@@ -49,7 +60,7 @@ typedef struct NeighbourList {
 typedef struct Snapshot {
     double *rows;
     int32_t *image[3];
-    int64_t step, window;
+    int64_t step, window, left;
     double scale;
     Tally tally;
     size_t recorded; // collisions in the log
@@ -74,7 +85,7 @@ struct Engine {
     size_t count; // of particles; slot `count` holds one that nothing meets
     double edge[3];
     double scale, growth; // of the diameters: now, and its rate
-    int64_t window;       // windows done in this step
+    int64_t window, left; // windows done in this step; still to do in this call
 
     double *rows;       // [count + 1][row]
     double *spare_rows; // the same, for reordering
@@ -114,7 +125,8 @@ struct EngineKernel {
     void (*run_window)(Engine *engine);  // predict, collide, move, fold
     void (*run_growing)(Engine *engine); // the same with growing diameters
     void (*redraw)(Engine *engine);      // velocities from the normal numbers in `column`
-    size_t (*list_cell)(Engine *engine, size_t cell, const Span *spans, int count, size_t end);
+    void (*pair_cell)(Engine *engine, size_t cell, const Span *spans, int count);
+    void (*prune)(Engine *engine); // the half list to the near pairs
 };
 
 // Becomes: extern const EngineKernel engine_kernel_2d_portable, ...
@@ -129,3 +141,8 @@ Status list_create(Engine *engine);
 void list_free(Engine *engine);
 // Sorts the particles by cell and finds all pairs nearer than contact + skin.
 Status list_build(Engine *engine);
+// Looks again which pairs are near; no particle may have left the reach of the list.
+void list_prune(Engine *engine);
+// How far a particle may be from its anchor before a pair could be missed, in d.
+double list_reach(const Engine *engine);       // of the pruned list
+double list_outer_reach(const Engine *engine); // of the list itself

@@ -115,9 +115,10 @@ KERNEL Gap pair_gap(const int dimension, const int growing, const Engine *engine
 KERNEL size_t find_hits(const int dimension, const int growing, Engine *engine, Growth growth) {
     const NeighbourList *list = &engine->list;
     size_t hits = 0;
-    for (size_t p = 0; p < list->pairs; p += LANES) {
-        const Gap gap = pair_gap(dimension, growing, engine, list->first + p, list->second + p,
-                                 lanes_load(list->pair_contact2 + p), growth);
+    for (size_t p = 0; p < list->near; p += LANES) {
+        const Gap gap =
+            pair_gap(dimension, growing, engine, list->near_first + p, list->near_second + p,
+                     lanes_load(list->near_contact2 + p), growth);
         const unsigned bits = lanes_bits(gap_closes(growing, gap, engine->settings.window));
         lanes_pack_numbers(list->hits + hits, bits, (uint32_t)p, 1);
         hits += (unsigned)__builtin_popcount(bits);
@@ -135,9 +136,9 @@ KERNEL void predict_all(const int dimension, const int growing, Engine *engine, 
         const size_t lanes = hits - h < LANES ? hits - h : LANES;
         for (size_t k = 0; k < LANES; k++) {
             const uint32_t pair = list->hits[k < lanes ? h + k : h];
-            first[k] = list->first[pair];
-            second[k] = list->second[pair];
-            contact2[k] = list->pair_contact2[pair];
+            first[k] = list->near_first[pair];
+            second[k] = list->near_second[pair];
+            contact2[k] = list->near_contact2[pair];
         }
         const Lanes time =
             gap_time(pair_gap(dimension, growing, engine, first, second, contact2, growth));
@@ -402,13 +403,16 @@ KERNEL void run(const int dimension, const int growing, Engine *engine) {
     static void redraw_##dimension(Engine *engine) {                                               \
         redraw_all(dimension, engine);                                                             \
     }                                                                                              \
-    static size_t list_##dimension(Engine *engine, size_t cell, const Span *spans, int count,      \
-                                   size_t end) {                                                   \
-        return list_cell(dimension, engine, cell, spans, count, end);                              \
+    static void pair_##dimension(Engine *engine, size_t cell, const Span *spans, int count) {      \
+        pair_cell(dimension, engine, cell, spans, count);                                          \
+    }                                                                                              \
+    static void prune_##dimension(Engine *engine) {                                                \
+        prune_pairs(dimension, engine);                                                            \
     }                                                                                              \
     const EngineKernel engine_kernel_##dimension##d_##path = {                                     \
         .run_window = run_##dimension,                                                             \
         .run_growing = grow_##dimension,                                                           \
         .redraw = redraw_##dimension,                                                              \
-        .list_cell = list_##dimension,                                                             \
+        .pair_cell = pair_##dimension,                                                             \
+        .prune = prune_##dimension,                                                                \
     };

@@ -136,6 +136,16 @@ KERNEL void lanes_pack_numbers(uint32_t *to, unsigned bits, uint32_t first, uint
 #endif
 }
 
+// Writes those of LANES integers whose bits are set; room for LANES is needed.
+KERNEL void lanes_pack_u32(uint32_t *to, unsigned bits, const uint32_t *from) {
+#if LANES == 8
+    const __m256i all = _mm256_loadu_si256((const __m256i *)from);
+    _mm256_storeu_si256((__m256i *)to, _mm256_maskz_compress_epi32((__mmask8)bits, all));
+#else
+    for (; bits; bits &= bits - 1) *to++ = from[__builtin_ctz(bits)];
+#endif
+}
+
 // Writes the lanes of the set bits; room for LANES values is needed.
 KERNEL void lanes_pack(double *to, unsigned bits, Lanes values) {
 #if LANES == 8

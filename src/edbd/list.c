@@ -11,8 +11,10 @@
 // Skins in d, found by measurement: wide ones cost pairs, narrow ones rebuilding.
 static const double SKIN_DIFFUSIVE[2] = {0.45, 0.30}; // 2D, 3D, velocities drawn in every window
 static const double SKIN_BALLISTIC[2] = {0.70, 0.45}; // or kept for many
-static const double SKIN_WINDOWS = 16; // least skin, in thermal flights of one window
-static const double FAR_AWAY = 1e100;  // where the particle is that nothing meets
+static const double SKIN_WINDOWS = 16;       // least skin, in thermal flights of one window
+static const double INNER_SKIN_WINDOWS = 40; // the inner skin, in the same,
+static const double INNER_SKIN_MOST = 0.3;   // where that is below this part of the outer
+static const double FAR_AWAY = 1e100;        // where the particle is that nothing meets
 
 typedef struct Grid {
     int cells[3];
@@ -93,58 +95,56 @@ static void sort_by_cell(Engine *engine, const Grid *grid) {
 static void place_anchors(Engine *engine) {
     for (size_t slot = 0; slot < engine->count; slot++) {
         const double *row = engine->rows + engine->row * slot;
-        for (int a = 0; a < engine->dimension; a++) {
-            engine->list.anchor[ANCHOR * slot + (size_t)a] = row[a];
-            engine->column[a][slot] = row[a];
-        }
+        double *anchor = engine->list.anchor + ANCHOR * slot;
+        for (int a = 0; a < engine->dimension; a++) anchor[a] = row[a];
     }
+    engine->list.farthest2 = 0;
+}
+
+static void fill_columns(Engine *engine) {
+    for (size_t slot = 0; slot < engine->count; slot++) {
+        const double *row = engine->rows + engine->row * slot;
+        for (int a = 0; a < engine->dimension; a++) engine->column[a][slot] = row[a];
+    }
+}
+
+static void place_nobody(Engine *engine) {
     double *nobody = engine->rows + engine->row * engine->count;
     for (size_t k = 0; k < engine->row; k++) nobody[k] = k < engine->row / 2 ? FAR_AWAY : 0;
-    engine->list.farthest2 = 0;
-    engine->list.age = 0;
 }
+
+// Room for more elements of an array of which the first `used` are kept.
+static Status grow(void **array, size_t size, size_t used, size_t capacity) {
+    void *bigger = memory_new(capacity, size);
+    if (!bigger) return NO_MEMORY;
+    if (used) memcpy(bigger, *array, used * size);
+    memory_free(*array);
+    *array = bigger;
+    return OK;
+}
+#define GROW(array, used, capacity) grow((void **)&(array), sizeof *(array), used, capacity)
 
 static Status grow_pairs(NeighbourList *list, size_t pairs) {
     if (pairs <= list->pair_capacity) return OK;
     const size_t capacity = pairs + pairs / 4 + 4 * BLOCK;
-    uint32_t *first = NULL, *second = NULL, *hits = NULL;
-    double *contact2 = NULL;
-    TRY(NEW_ARRAY(first, capacity));
-    TRY(NEW_ARRAY(second, capacity));
-    TRY(NEW_ARRAY(hits, capacity));
-    TRY(NEW_ARRAY(contact2, capacity));
-    if (list->pairs) {
-        memcpy(first, list->first, list->pairs * sizeof *first);
-        memcpy(second, list->second, list->pairs * sizeof *second);
-        memcpy(contact2, list->pair_contact2, list->pairs * sizeof *contact2);
+    TRY(GROW(list->first, list->pairs, capacity));
+    TRY(GROW(list->second, list->pairs, capacity));
+    TRY(GROW(list->pair_contact2, list->pairs, capacity));
+    TRY(GROW(list->hits, 0, capacity));
+    if (list->pruned) {
+        TRY(GROW(list->pruned_first, 0, capacity));
+        TRY(GROW(list->pruned_second, 0, capacity));
+        TRY(GROW(list->pruned_contact2, 0, capacity));
     }
-    memory_free(list->first);
-    memory_free(list->second);
-    memory_free(list->pair_contact2);
-    memory_free(list->hits);
-    list->first = first;
-    list->second = second;
-    list->hits = hits;
-    list->pair_contact2 = contact2;
     list->pair_capacity = capacity;
     return OK;
 }
 
-static Status grow_neighbours(NeighbourList *list, size_t used, size_t wanted) {
-    if (wanted <= list->neighbour_capacity) return OK;
-    const size_t capacity = wanted + wanted / 4 + 4 * BLOCK;
-    uint32_t *neighbour = NULL;
-    double *contact2 = NULL;
-    TRY(NEW_ARRAY(neighbour, capacity));
-    TRY(NEW_ARRAY(contact2, capacity));
-    if (used) {
-        memcpy(neighbour, list->neighbour, used * sizeof *neighbour);
-        memcpy(contact2, list->contact2, used * sizeof *contact2);
-    }
-    memory_free(list->neighbour);
-    memory_free(list->contact2);
-    list->neighbour = neighbour;
-    list->contact2 = contact2;
+static Status grow_neighbours(NeighbourList *list, size_t neighbours) {
+    if (neighbours <= list->neighbour_capacity) return OK;
+    const size_t capacity = neighbours + neighbours / 4 + 4 * BLOCK;
+    TRY(GROW(list->neighbour, 0, capacity));
+    TRY(GROW(list->contact2, 0, capacity));
     list->neighbour_capacity = capacity;
     return OK;
 }
@@ -154,7 +154,7 @@ static int wrap(int cell, int cells) {
 }
 
 // Adds the slots of a cell to the spans, of which neighbouring cells along x make one.
-static int add_span(const Engine *engine, size_t cell, Span spans[27], int count) {
+static int add_span(const Engine *engine, size_t cell, Span *spans, int count) {
     const Span span = {engine->cell_start[cell], engine->cell_start[cell + 1]};
     if (span.from == span.to) return count;
     if (count > 0 && spans[count - 1].to == span.from)
@@ -164,18 +164,19 @@ static int add_span(const Engine *engine, size_t cell, Span spans[27], int count
     return count;
 }
 
-static int spans_around(const Engine *engine, const Grid *grid, size_t cell, Span spans[27]) {
+// A cell and half of its neighbours, so that every pair of cells comes once.
+static int spans_after(const Engine *engine, const Grid *grid, size_t cell, Span spans[14]) {
     int at[3], reach[3], count = 0;
     for (int a = 0; a < 3; a++) {
         at[a] = (int)(cell % (size_t)grid->cells[a]);
         cell /= (size_t)grid->cells[a];
         reach[a] = grid->cells[a] > 1;
     }
-    for (int z = -reach[2]; z <= reach[2]; z++) {
-        for (int y = -reach[1]; y <= reach[1]; y++) {
+    for (int z = 0; z <= reach[2]; z++) {
+        for (int y = z > 0 ? -reach[1] : 0; y <= reach[1]; y++) {
             const size_t row = (size_t)wrap(at[2] + z, grid->cells[2]) * (size_t)grid->cells[1] +
                                (size_t)wrap(at[1] + y, grid->cells[1]);
-            for (int x = -reach[0]; x <= reach[0]; x++) {
+            for (int x = z > 0 || y > 0 ? -reach[0] : 0; x <= reach[0]; x++) {
                 count = add_span(
                     engine, row * (size_t)grid->cells[0] + (size_t)wrap(at[0] + x, grid->cells[0]),
                     spans, count);
@@ -185,36 +186,70 @@ static int spans_around(const Engine *engine, const Grid *grid, size_t cell, Spa
     return count;
 }
 
-// Room for the neighbours of a cell's particles, were all candidates in range.
-static Status make_room(Engine *engine, size_t cell, const Span *spans, int count, size_t end) {
+// Room for the pairs of a cell's particles, were all candidates in range.
+static Status make_room(Engine *engine, size_t cell, const Span *spans, int count) {
     const size_t own = engine->cell_start[cell + 1] - engine->cell_start[cell];
     size_t candidates = BLOCK;
     for (int s = 0; s < count; s++) candidates += spans[s].to - spans[s].from;
-    TRY(grow_pairs(&engine->list, engine->list.pairs + own * candidates + 2 * BLOCK));
-    return grow_neighbours(&engine->list, end, end + own * candidates + 2 * BLOCK);
+    return grow_pairs(&engine->list, engine->list.pairs + own * candidates + 2 * BLOCK);
 }
 
-static void end_lists(Engine *engine, size_t end) {
+static Status list_pairs(Engine *engine, const Grid *grid) {
     NeighbourList *list = &engine->list;
     const uint32_t nobody = (uint32_t)(engine->count * engine->row);
-    list->start[engine->count] = (uint32_t)end;
+    list->pairs = 0;
+    for (size_t cell = 0; cell < grid_size(grid); cell++) {
+        if (engine->cell_start[cell] == engine->cell_start[cell + 1]) continue;
+        Span spans[14];
+        const int count = spans_after(engine, grid, cell, spans);
+        TRY(make_room(engine, cell, spans, count));
+        engine->kernel->pair_cell(engine, cell, spans, count);
+    }
     for (; list->pairs % BLOCK; list->pairs++) {
         list->first[list->pairs] = list->second[list->pairs] = nobody;
         list->pair_contact2[list->pairs] = 0;
     }
+    return OK;
 }
 
-static Status list_pairs(Engine *engine, const Grid *grid) {
-    size_t end = 0;
-    engine->list.pairs = 0;
-    for (size_t cell = 0; cell < grid_size(grid); cell++) {
-        if (engine->cell_start[cell] == engine->cell_start[cell + 1]) continue;
-        Span spans[27];
-        const int count = spans_around(engine, grid, cell, spans);
-        TRY(make_room(engine, cell, spans, count, end));
-        end = engine->kernel->list_cell(engine, cell, spans, count, end);
+// Where the neighbours of each particle begin, in whole blocks.
+static Status start_neighbours(Engine *engine, uint32_t *degree) {
+    NeighbourList *list = &engine->list;
+    const uint32_t shift = engine->row == ROW_2D ? 2 : 3;
+    memset(degree, 0, (engine->count + 1) * sizeof *degree);
+    for (size_t p = 0; p < list->pairs; p++) {
+        degree[list->first[p] >> shift]++;
+        degree[list->second[p] >> shift]++;
     }
-    end_lists(engine, end);
+    uint32_t end = 0;
+    for (size_t slot = 0; slot < engine->count; slot++) {
+        list->start[slot] = end;
+        end += (degree[slot] + BLOCK - 1) / BLOCK * BLOCK;
+        degree[slot] = list->start[slot];
+    }
+    list->start[engine->count] = degree[engine->count] = end;
+    return grow_neighbours(list, end + 2 * BLOCK); // padding pairs, nobody with nobody, go there
+}
+
+// The half list, seen from both partners of each pair.
+static Status list_neighbours(Engine *engine) {
+    NeighbourList *list = &engine->list;
+    const uint32_t shift = engine->row == ROW_2D ? 2 : 3;
+    uint32_t *end = engine->cell_of; // no longer needed: where each particle's list ends
+    TRY(start_neighbours(engine, end));
+    for (size_t p = 0; p < list->pairs; p++) {
+        const uint32_t first = list->first[p], second = list->second[p];
+        const uint32_t one = end[first >> shift]++, other = end[second >> shift]++;
+        list->neighbour[one] = second;
+        list->neighbour[other] = first;
+        list->contact2[one] = list->contact2[other] = list->pair_contact2[p];
+    }
+    for (size_t slot = 0; slot < engine->count; slot++) {
+        for (uint32_t n = end[slot]; n < list->start[slot + 1]; n++) {
+            list->neighbour[n] = (uint32_t)(engine->count * engine->row);
+            list->contact2[n] = 0;
+        }
+    }
     return OK;
 }
 
@@ -228,17 +263,69 @@ static double skin_of(const Engine *engine) {
     return fmin(wanted, shortest / 2 - engine->largest * engine->scale);
 }
 
+void list_prune(Engine *engine) {
+    NeighbourList *list = &engine->list;
+    list->spent += sqrt(list->farthest2);
+    list->inner_scale = engine->scale;
+    place_anchors(engine);
+    engine->kernel->prune(engine);
+    const uint32_t nobody = (uint32_t)(engine->count * engine->row);
+    for (; list->near % BLOCK; list->near++) {
+        list->near_first[list->near] = list->near_second[list->near] = nobody;
+        list->near_contact2[list->near] = 0;
+    }
+}
+
+// Without pruning the near pairs are all pairs.
+static void see_all_pairs(NeighbourList *list) {
+    list->near = list->pairs;
+    list->near_first = list->first;
+    list->near_second = list->second;
+    list->near_contact2 = list->pair_contact2;
+}
+
+static void choose_skins(Engine *engine) {
+    NeighbourList *list = &engine->list;
+    const double inner = INNER_SKIN_WINDOWS * engine->fastest * engine->settings.window;
+    list->skin = skin_of(engine);
+    list->pruned = inner < INNER_SKIN_MOST * list->skin;
+    list->inner_skin = list->pruned ? inner : list->skin;
+}
+
 Status list_build(Engine *engine) {
     NeighbourList *list = &engine->list;
-    if (list->skin == 0 || list->scale != engine->scale) list->skin = skin_of(engine);
-    list->scale = engine->scale;
+    if (list->skin == 0 || list->scale != engine->scale) choose_skins(engine);
+    list->scale = list->inner_scale = engine->scale;
+    list->spent = 0;
+    list->age = 0;
     const Grid grid = grid_that_fits(engine, engine->largest * engine->scale + list->skin);
     count_cells(engine, &grid);
     sort_by_cell(engine, &grid);
+    place_nobody(engine);
     place_anchors(engine);
+    fill_columns(engine);
     engine->tally.rebuilds++;
     TRY(list_pairs(engine, &grid));
+    TRY(list_neighbours(engine));
+    see_all_pairs(list);
+    if (!list->pruned) return OK;
+    list->near_first = list->pruned_first;
+    list->near_second = list->pruned_second;
+    list->near_contact2 = list->pruned_contact2;
+    list_prune(engine);
     return OK;
+}
+
+double list_outer_reach(const Engine *engine) {
+    const NeighbourList *list = &engine->list;
+    return (list->skin - engine->largest * (engine->scale - list->scale)) / 2 - list->spent;
+}
+
+double list_reach(const Engine *engine) {
+    const NeighbourList *list = &engine->list;
+    const double inner =
+        (list->inner_skin - engine->largest * (engine->scale - list->inner_scale)) / 2;
+    return fmin(inner, list_outer_reach(engine));
 }
 
 Status list_create(Engine *engine) {
@@ -246,7 +333,7 @@ Status list_create(Engine *engine) {
     engine->cells_most = 2 * engine->count + 27;
     TRY(NEW_ARRAY(list->anchor, ANCHOR * (engine->count + 1)));
     TRY(NEW_ARRAY(list->start, engine->count + 1));
-    TRY(NEW_ARRAY(engine->cell_of, engine->count));
+    TRY(NEW_ARRAY(engine->cell_of, engine->count + 1));
     TRY(NEW_ARRAY(engine->cell_start, engine->cells_most + 1));
     return OK;
 }
@@ -258,6 +345,9 @@ void list_free(Engine *engine) {
     memory_free(list->second);
     memory_free(list->pair_contact2);
     memory_free(list->hits);
+    memory_free(list->pruned_first);
+    memory_free(list->pruned_second);
+    memory_free(list->pruned_contact2);
     memory_free(list->start);
     memory_free(list->neighbour);
     memory_free(list->contact2);

@@ -19,53 +19,58 @@ KERNEL unsigned near_slots(const int dimension, const Engine *engine, uint32_t s
     const Lanes contact = lanes_all(engine->radius[slot]) + lanes_load_at(engine->radius + from);
     const Lanes range = contact * lanes_all(engine->scale) + lanes_all(engine->list.skin);
     *contact2 = contact * contact;
-    unsigned bits = lanes_bits(lanes_less(r2, range * range));
-    if (to - from < LANES) bits &= (1u << (to - from)) - 1;
-    if (slot - from < LANES) bits &= ~(1u << (slot - from));
-    return bits;
+    const unsigned bits = lanes_bits(lanes_less(r2, range * range));
+    return to - from < LANES ? bits & ((1u << (to - from)) - 1) : bits;
 }
 
-// Of the LANES slots from `from` on, those after `slot`: a pair is in the half list once.
-KERNEL unsigned later_slots(uint32_t slot, uint32_t from) {
-    if (from > slot) return ~0u;
-    return slot - from < LANES - 1 ? ~0u << (slot - from + 1) : 0;
-}
-
-KERNEL size_t list_slot(const int dimension, Engine *engine, uint32_t slot, const Span *spans,
-                        int count, size_t end) {
+// Adds the pairs of `slot` with the candidates of a span to the half list.
+KERNEL void pair_span(const int dimension, Engine *engine, uint32_t slot, Span span) {
     NeighbourList *list = &engine->list;
     const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D;
-    for (int s = 0; s < count; s++) {
-        for (uint32_t from = spans[s].from; from < spans[s].to; from += LANES) {
-            Lanes contact2;
-            const unsigned bits = near_slots(dimension, engine, slot, from, spans[s].to, &contact2);
-            lanes_pack_numbers(list->neighbour + end, bits, from * row, row);
-            lanes_pack(list->contact2 + end, bits, contact2);
-            end += (unsigned)__builtin_popcount(bits);
-            const unsigned half = bits & later_slots(slot, from);
-            if (!half) continue;
-            const int pairs = __builtin_popcount(half);
-            lanes_pack_numbers(list->second + list->pairs, half, from * row, row);
-            lanes_pack(list->pair_contact2 + list->pairs, half, contact2);
-            for (int k = 0; k < pairs; k++) list->first[list->pairs + (size_t)k] = slot * row;
-            list->pairs += (size_t)pairs;
-        }
+    for (uint32_t from = span.from; from < span.to; from += LANES) {
+        Lanes contact2;
+        const unsigned bits = near_slots(dimension, engine, slot, from, span.to, &contact2);
+        lanes_pack_numbers(list->second + list->pairs, bits, from * row, row);
+        lanes_pack(list->pair_contact2 + list->pairs, bits, contact2);
+        for (int k = 0; k < LANES; k++) list->first[list->pairs + (size_t)k] = slot * row;
+        list->pairs += (unsigned)__builtin_popcount(bits);
     }
-    return end;
 }
 
-// Lists all particles of a cell against the spans around it; returns the new end of the list of
-// neighbours. Lists of particles are padded to whole blocks with the one that nothing meets.
-KERNEL size_t list_cell(const int dimension, Engine *engine, size_t cell, const Span *spans,
-                        int count, size_t end) {
-    const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D;
+// The pairs of the particles of a cell with those after them in it and in the cells after it, of
+// which spans[0] begins with the cell itself.
+KERNEL void pair_cell(const int dimension, Engine *engine, size_t cell, const Span *spans,
+                      int count) {
     for (uint32_t slot = engine->cell_start[cell]; slot < engine->cell_start[cell + 1]; slot++) {
-        engine->list.start[slot] = (uint32_t)end;
-        end = list_slot(dimension, engine, slot, spans, count, end);
-        for (; end % BLOCK; end++) {
-            engine->list.neighbour[end] = (uint32_t)engine->count * row;
-            engine->list.contact2[end] = 0;
-        }
+        pair_span(dimension, engine, slot, (Span){slot + 1, spans[0].to});
+        for (int s = 1; s < count; s++) pair_span(dimension, engine, slot, spans[s]);
     }
-    return end;
+}
+
+// The pairs of the half list that may meet soon: nearer than contact + the inner skin.
+KERNEL void prune_pairs(const int dimension, Engine *engine) {
+    NeighbourList *list = &engine->list;
+    size_t near = 0;
+    for (size_t p = 0; p < list->pairs; p += LANES) {
+        const double *i[LANES], *j[LANES];
+        for (size_t k = 0; k < LANES; k++) {
+            i[k] = engine->rows + list->first[p + k];
+            j[k] = engine->rows + list->second[p + k];
+        }
+        Lanes r[3], v[3], r2 = {0};
+        lanes_separate(dimension, i, j, r, v);
+        for (int a = 0; a < dimension; a++) {
+            r[a] = lanes_nearest(r[a], lanes_all(engine->edge[a]), lanes_all(engine->edge[a] / 2));
+            r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
+        }
+        const Lanes contact2 = lanes_load(list->pair_contact2 + p);
+        const Lanes range =
+            lanes_sqrt(contact2) * lanes_all(engine->scale) + lanes_all(list->inner_skin);
+        const unsigned bits = lanes_bits(lanes_less(r2, range * range));
+        lanes_pack_u32(list->near_first + near, bits, list->first + p);
+        lanes_pack_u32(list->near_second + near, bits, list->second + p);
+        lanes_pack(list->near_contact2 + near, bits, contact2);
+        near += (unsigned)__builtin_popcount(bits);
+    }
+    list->near = near;
 }
