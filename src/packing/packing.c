@@ -17,7 +17,8 @@ static const int64_t WINDOWS_PER_DRAW = 10;         // of the velocities
 static const int64_t WINDOWS_PER_LOOK = 100;        // at `stop`
 static const double MELT_PACKING[2] = {0.40, 0.30}; // 2D, 3D: fluids that mix fast
 static const double MELT_TIME = 20;                 // in d sqrt(m/kT), and
-static const double MELT_TIME_PER_EDGE = 0.5;       // sound must cross the box
+static const double MELT_TIME_PER_EDGE = 0.5;       // sound must cross the box, if it is small:
+static const double MELT_TIME_MOST = 60;            // order is lost locally
 static const double GROWTH_RATE = 0.02;             // of the scale of diameters, per d sqrt(m/kT)
 static const double LATTICE_GAP = 1e-3;             // between the largest neighbours at the start
 static const double MARGIN = 1e-10; // grown beyond the target, so that contacts open
@@ -129,7 +130,7 @@ static Status melt_and_grow(State *state, Engine *engine, double window, double 
                             const atomic_int *stop, Tally *tally) {
     double edges = 0;
     for (int a = 0; a < state->box.dimension; a++) edges = fmax(edges, state->box.edge[a]);
-    const double melt = MELT_TIME + MELT_TIME_PER_EDGE * edges;
+    const double melt = fmin(MELT_TIME + MELT_TIME_PER_EDGE * edges, MELT_TIME_MOST);
     engine_grow(engine, scale, 0);
     TRY(run(engine, (int64_t)ceil(melt / window), stop, tally));
     if (scale == 1) return OK;
