@@ -262,10 +262,14 @@ static void archive_place(Replica *replica, Archive *archive, uint64_t *stage, u
     tally_archive(&replica->tally, archive);
     tally_archive(&replica->finished, archive);
     archive_require(archive, *stage <= replica->plan->stage_count, "it has a stage too many");
-    archive_require(archive, *begun == 0 || *stage < replica->plan->stage_count,
+    archive_require(archive, *begun == 0 || (*begun == 1 && *stage < replica->plan->stage_count),
                     "it is inside a stage that does not exist");
-    archive_require(archive, replica->frames_taken >= 0 && replica->frames_due >= 0,
-                    "its frame counts are negative");
+    archive_require(archive, *begun == 1 || replica->tick == 0,
+                    "it has a tick outside of any stage");
+    archive_require(archive,
+                    replica->frames_taken >= 0 && replica->frames_taken <= replica->frames_due &&
+                        replica->frames_due <= plan_frames(replica->plan),
+                    "its frame counts cannot be");
 }
 
 void replica_save(Replica *replica, Archive *archive) {

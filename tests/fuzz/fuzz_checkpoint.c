@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any bytes as a checkpoint, as a state, and as results from the process that reads results.h5:
-// something valid, or one sentence. The first byte chooses; where checksums would keep the fuzzer
-// out they are put right first, as somebody with a hex editor would.
+// Any bytes as a checkpoint, a state, a replica with its observers, and results from the process
+// that reads results.h5: something valid, or one sentence. The first byte chooses; where checksums
+// would keep the fuzzer out they are put right first, as somebody with a hex editor would.
 #include "base/crc32c.h"
 #include "base/memory.h"
+#include "config/config.h"
+#include "protocol/replica.h"
 #include "state/state.h"
 #include "store/checkpoint.h"
 
@@ -40,6 +42,39 @@ static void load_state(const void *bytes, size_t size) {
     else
         demand_sentence();
     state_free(state);
+}
+
+// Read once: all observables of a small run.
+static const Plan *small_plan(void) {
+    static Plan *plan;
+    static const char text[] =
+        "system:\n"
+        "  {dimension: 2, particles: 5, packing_fraction: 0.3,\n"
+        "   species: {a: {shape: disc, fraction: 0.6}, b: {shape: disc, fraction: 0.4}}}\n"
+        "dynamics: {method: event-driven, thermostat_interval: 0.1}\n"
+        "protocol:\n"
+        "  - {stage: one, time: 0.1, observe: [mean_squared_displacement, pressure]}\n"
+        "  - {stage: two, time: 0.1,\n"
+        "     observe: [pair_distribution, structure_factor, snapshot, velocity_distribution]}\n"
+        "ensemble: {replicas: 1, seed: 1}\n";
+    if (!plan) ASSERT(config_read_text(&plan, "fuzz", text, sizeof text - 1, NULL) == OK);
+    return plan;
+}
+
+// A replica that was accepted is the one that its bytes say.
+static void load_replica(const void *bytes, size_t size) {
+    Replica *replica = NULL;
+    Archive archive = archive_reader(bytes, size);
+    if (replica_load(&replica, small_plan(), 0, &archive) != OK) {
+        demand_sentence();
+        return;
+    }
+    Archive again = archive_writer();
+    replica_save(replica, &again);
+    ASSERT(archive_status(&again, true) == OK);
+    ASSERT(again.size == size && memcmp(again.bytes, bytes, size) == 0);
+    archive_free(&again);
+    replica_free(replica);
 }
 
 static void load_results(const void *bytes, size_t size) {
@@ -79,9 +114,10 @@ int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t size) {
     if (size == 0) return 0;
     const unsigned char choice = *bytes++;
     size--;
-    if (choice % 4 == 0) load_checkpoint(bytes, size);
-    if (choice % 4 == 1) load_with_checksums(bytes, size);
-    if (choice % 4 == 2) load_state(bytes, size);
-    if (choice % 4 == 3) load_results(bytes, size);
+    if (choice % 5 == 0) load_checkpoint(bytes, size);
+    if (choice % 5 == 1) load_with_checksums(bytes, size);
+    if (choice % 5 == 2) load_state(bytes, size);
+    if (choice % 5 == 3) load_results(bytes, size);
+    if (choice % 5 == 4) load_replica(bytes, size);
     return 0;
 }
