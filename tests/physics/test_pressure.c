@@ -30,7 +30,8 @@ static double at_fixed_number(const System *system) {
 }
 
 static Results *press(const System *system, double flight) {
-    const double interval = 0.05, diffusion = interval / 2;
+    // A long interval: the sampling is exact for any, and this one forgets faster than a short one.
+    const double interval = 0.1, diffusion = interval / 2;
     Plan *plan = new_plan(*system, interval, 20, flight * diffusion, REPLICAS);
     observe(plan, &observable_pressure);
     observe(plan, &observable_pair_distribution);
@@ -44,7 +45,7 @@ static void expect_equation(const char *what, const Results *results, const Syst
     const double expected = at_fixed_number(system), error = known * (expected - 1);
     snprintf(line, sizeof line, "Z from collisions, %s", what);
     expect_within(line, measured(results, "compressibility_factor"), expected, error, SIGMAS,
-                  0.004);
+                  fmax(0.004, 1.2 * known));
     snprintf(line, sizeof line, "Z from contact values, %s", what);
     expect_within(line, measured(results, "compressibility_factor_contact"), expected, error,
                   SIGMAS, 0.02);
@@ -133,19 +134,20 @@ START_TEST(polydisperse_spheres_press_the_same_by_both_routes) {
 }
 END_TEST
 
-// _i: dimension.
+// _i: dimension. So dilute that the third virial coefficient is a correction of two per cent.
 START_TEST(dilute_mixtures_have_their_second_virial_coefficient) {
-    const System system = system_of(2 + _i, 400, 0.004, 2);
-    Plan *plan = new_plan(system, 0.5, 20, 500 * 0.25, REPLICAS);
+    const System system = system_of(2 + _i, 400, 0.01, 2);
+    Plan *plan = new_plan(system, 1, 20, 300 * 0.5, REPLICAS);
+    set_number(&plan->stages[1].dynamics.settings, &propagator_event_driven.options, "substeps",
+               20);
     observe(plan, &observable_pressure);
     Results *results = simulate(plan);
-    // The third coefficient is there too, and not to be seen: it is less than a per cent.
     const double virial = equation_second_virial(&system) - 1;
-    const double third = fabs(bulk(system, 0.004) - 1 - virial);
+    const double third = bulk(system, 0.01) - 1 - virial;
     Estimate excess = measured(results, "compressibility_factor");
-    excess.value -= 1;
-    expect_within(_i == 0 ? "Z - 1, binary discs 0.004" : "Z - 1, binary spheres 0.004", excess,
-                  virial * (1 - 1.0 / 400), third, SIGMAS, 0.02);
+    excess.value -= 1 + third;
+    expect_within(_i == 0 ? "B2 rho, binary discs 0.01" : "B2 rho, binary spheres 0.01", excess,
+                  virial * (1 - 1.0 / 400), fabs(third) / 5, SIGMAS, 0.03);
     results_free(results);
 }
 END_TEST
