@@ -387,11 +387,9 @@ static Status fail_unknown(const OptionMap *options, const Node *node, const cha
     tree_quote(shown, node->key);
     const char *later = section_later(node->key);
     if (later) return tree_fail(node, "%s: %s", shown, later);
-    const char *dot = strchr(node->key, '.');
-    if (dot)
+    if (strchr(node->key, '.'))
         return tree_fail(node, "the key '%s' has a dot; write a map in a map, as %.*s: {...}",
-                         shown, (int)(dot - node->key < QUOTE_SIZE ? dot - node->key : QUOTE_SIZE),
-                         node->key);
+                         shown, (int)strcspn(shown, "."), shown);
     KnownKeys known = {.count = 0};
     known_collect(&known, options, prefix);
     const size_t nearest = nearest_word(node->key, known.pointers, known.count);

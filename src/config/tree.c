@@ -25,29 +25,31 @@ typedef struct TreeReader {
     size_t nodes;
 } TreeReader;
 
-__attribute__((format(printf, 4, 0))) static Status
-fail_at(const char *source, int line, int column, const char *format, va_list arguments) {
-    static const int SOURCE_SHOWN = 200; // what follows must have room in the sentence
-    char sentence[640];
-    const char *more = strlen(source) > (size_t)SOURCE_SHOWN ? "..." : "";
-    vsnprintf(sentence, sizeof sentence, format, arguments);
-    if (line == 0)
-        return status_fail(BAD_DATA, "--set %.*s%s: error: %s", SOURCE_SHOWN, source, more,
-                           sentence);
-    return status_fail(BAD_DATA, "%.*s%s:%d:%d: error: %s", SOURCE_SHOWN, source, more, line,
-                       column, sentence);
+// At most size - 1 bytes of `text`, control characters replaced, "..." where it was cut.
+static const char *quote(char *out, size_t size, const char *text) {
+    static const char more[] = "...";
+    size_t length = strlen(text);
+    const bool cut = length >= size;
+    if (cut) length = size - sizeof more;
+    // Not through the middle of a character of several bytes.
+    while (cut && length > 0 && ((unsigned char)text[length] & 0xC0) == 0x80) length--;
+    for (size_t i = 0; i < length; i++) out[i] = iscntrl((unsigned char)text[i]) ? '?' : text[i];
+    snprintf(out + length, size - length, "%s", cut ? more : "");
+    return out;
 }
 
 const char *tree_quote(char out[QUOTE_SIZE], const char *text) {
-    enum { KEPT = QUOTE_SIZE - 4 };
-    size_t length = strlen(text);
-    const bool shortened = length > KEPT;
-    if (shortened) length = KEPT;
-    // Not through the middle of a character of several bytes.
-    while (shortened && length > 0 && ((unsigned char)text[length] & 0xC0) == 0x80) length--;
-    for (size_t i = 0; i < length; i++) out[i] = iscntrl((unsigned char)text[i]) ? '?' : text[i];
-    snprintf(out + length, QUOTE_SIZE - length, "%s", shortened ? "..." : "");
-    return out;
+    return quote(out, QUOTE_SIZE, text);
+}
+
+__attribute__((format(printf, 4, 0))) static Status
+fail_at(const char *source, int line, int column, const char *format, va_list arguments) {
+    enum { SOURCE_SHOWN = 204 }; // what follows must have room in the sentence
+    char sentence[640], shown[SOURCE_SHOWN];
+    vsnprintf(sentence, sizeof sentence, format, arguments);
+    quote(shown, sizeof shown, source);
+    if (line == 0) return status_fail(BAD_DATA, "--set %s: error: %s", shown, sentence);
+    return status_fail(BAD_DATA, "%s:%d:%d: error: %s", shown, line, column, sentence);
 }
 
 Status tree_fail(const Node *node, const char *format, ...) {
