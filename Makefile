@@ -22,8 +22,8 @@ PARALLEL = $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(shell nproc))
 
 build:
 	@tools/setup.sh build
-	@$(CONFIGURE) -B build -DPERRIN_TESTS=OFF >/dev/null
-	@$(MAKE) -s -C build $(PARALLEL)
+	@$(CONFIGURE) -B build >/dev/null
+	@$(MAKE) -s -C build $(PARALLEL) perrin-program perrin-public
 
 build-tests:
 	@tools/setup.sh build test
@@ -37,7 +37,7 @@ demo: build
 	@tools/demo.sh
 
 test: build-tests
-	@cd build && ctest --output-on-failure -j$(shell nproc)
+	@cd build && ctest --output-on-failure --no-tests=error -j$(shell nproc)
 
 check: build-tests
 	@tools/check_style.sh
@@ -52,7 +52,7 @@ sanitize:
 	@CC=clang-14 $(CONFIGURE) -B build-sanitize -DCMAKE_BUILD_TYPE=Debug \
 	    -DPERRIN_SANITIZE=address,undefined >/dev/null
 	@$(MAKE) -s -C build-sanitize $(PARALLEL)
-	@cd build-sanitize && ctest --output-on-failure -L unit -j$(shell nproc)
+	@cd build-sanitize && ctest --output-on-failure --no-tests=error -L unit -j$(shell nproc)
 
 fuzz:
 	@tools/setup.sh build test

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What the fault tests share. Sourced with: PROGRAM (store_run or perrin), SAME (same_results).
-# The small run is `start DIR`, its
-# size LENGTH, PARTICLES and (store_run) PAUSE; `same DIR REFERENCE` compares what two runs left, bit for bit.
+# What the fault tests share. Sourced with: PROGRAM (store_run or perrin), SAME (same_results) and,
+# where it is needed, SHIM. The small run is `start DIR`, its size LENGTH, PARTICLES and (store_run)
+# PAUSE; `same DIR REFERENCE` compares what two runs left, bit for bit.
 set -u
 [ -n "${TMPDIR:-}" ] || { [ -w /dev/shm ] && TMPDIR=/dev/shm; } || TMPDIR=/tmp # memory is faster
 work=$(mktemp -d "$TMPDIR/perrin-faults.XX""XXXX")
 failures=0
+if [ -n "${SHIM:-}" ]; then # LD_PRELOAD splits at blanks, LD_LIBRARY_PATH does not
+    LD_LIBRARY_PATH=$(dirname "$SHIM")
+    export LD_LIBRARY_PATH
+    SHIM=$(basename "$SHIM")
+fi
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM HUP
 
