@@ -93,40 +93,28 @@ Status image_create(Image *image) {
 
 // The superblock, version 0: signature and versions first, then three addresses, of which the last
 // is the end of the file.
-static Status check_end(const Image *image) {
+static Status find_end(Image *image) {
     enum { VERSION = 8, END = 40 };
-    uint64_t end = 0;
-    if (image->bytes && image->size >= END + sizeof end && image->bytes[VERSION] == 0) {
-        memcpy(&end, image->bytes + END, sizeof end);
+    if (!image->bytes || image->size < END + sizeof image->end || image->bytes[VERSION] != 0) {
+        return failed("the superblock of", "the file");
     }
-    return end == image->seal + IMAGE_SEAL ? OK : failed("the end of", "the file");
-}
-
-static Status add_seal(Image *image) {
-    const ImageShape shape = {.type = H5T_STD_U8LE, .rank = 1, .extent = {IMAGE_SEAL}};
-    const hid_t group = H5Gopen2(image->file, "perrin", H5P_DEFAULT);
-    if (group < 0) return failed("the group", "perrin");
-    const Status status = image_room(group, "seal", &shape, &image->seal);
-    H5Gclose(group);
-    return status;
-}
-
-Status image_close(Image *image) {
-    TRY(add_seal(image));
-    const herr_t result = H5Fclose(image->file);
-    image->file = H5I_INVALID_HID;
-    TRY(done(result, "the closing of", "the file"));
-    TRY(check_end(image));
-    if (image->size > image->seal + IMAGE_SEAL) image->size = image->seal + IMAGE_SEAL;
+    memcpy(&image->end, image->bytes + END, sizeof image->end);
+    if (image->size > image->end) image->size = image->end;
     return OK;
 }
 
-Status image_complete(Image *image, const unsigned char seal[IMAGE_SEAL]) {
-    const size_t whole = image->seal + IMAGE_SEAL;
+Status image_close(Image *image) {
+    const herr_t result = H5Fclose(image->file);
+    image->file = H5I_INVALID_HID;
+    TRY(done(result, "the closing of", "the file"));
+    return find_end(image);
+}
+
+Status image_complete(Image *image, size_t more) {
+    const size_t whole = image->end + more;
     unsigned char *bytes = realloc(image->bytes, whole);
     if (!bytes) return status_fail(NO_MEMORY, "out of memory: a file of %zu bytes", whole);
     memset(bytes + image->size, 0, whole - image->size);
-    memcpy(bytes + image->seal, seal, IMAGE_SEAL);
     image->bytes = bytes;
     image->size = whole;
     return OK;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // An HDF5 file built in memory: the same calls give the same bytes, no failure of a disk can hit
 // HDF5, and what is written to the disk is ours to write. Room that is reserved and not filled
-// takes no memory. Its last bytes are a seal: a dataset /perrin/seal of fixed size that the
-// caller fills when all else is known, so that a file can be checked without HDF5.
-// Internal to the store.
+// takes no memory. Internal to the store.
 #pragma once
 
 #include "base/status.h"
@@ -11,19 +9,19 @@
 #include <hdf5.h>
 #include <stdint.h>
 
-enum { IMAGE_SEAL = 256, IMAGE_RANK = 5 };
+enum { IMAGE_RANK = 5 };
 
 typedef struct Image {
     hid_t file;
     unsigned char *bytes; // once closed: [0, size) of the file; what lies behind was reserved
     size_t size;
-    uint64_t seal; // once closed: place of the seal; the file ends IMAGE_SEAL bytes later
+    uint64_t end; // once closed: of the file, in bytes
 } Image;
 
 Status image_create(Image *image);
-Status image_close(Image *image); // also puts the seal's room in place
-// Of a closed image: fills all reserved room with zeros and puts the seal at the end.
-Status image_complete(Image *image, const unsigned char seal[IMAGE_SEAL]);
+Status image_close(Image *image);
+// Of a closed image: zeros in all reserved room, and room for `more` bytes behind the end.
+Status image_complete(Image *image, size_t more);
 void image_free(Image *image); // closes without success, too
 
 Status image_group(hid_t parent, const char *name, hid_t *group);

@@ -137,20 +137,36 @@ static Status write_contents(hid_t file, Layout *layout, const State *state) {
     return OK;
 }
 
+static uint64_t first_room(const Layout *layout) {
+    const uint64_t places[] = {layout->position, layout->image, layout->edges,
+                               layout->step,     layout->time,  layout->crc};
+    uint64_t first = places[0];
+    for (size_t i = 1; i < sizeof places / sizeof *places; i++) {
+        if (places[i] < first) first = places[i];
+    }
+    return first;
+}
+
+// All that HDF5 wrote lies before the frames: what is known of the rest must be empty.
+static Status check_header_first(const Layout *layout, const Image *image) {
+    bool empty = layout->header <= image->size;
+    for (uint64_t i = layout->header; empty && i < image->size; i++) empty = image->bytes[i] == 0;
+    return empty ? OK : status_fail(UNHEALTHY, "HDF5 does not put a trajectory's frames last");
+}
+
 Status layout_build(Layout *layout, Image *image, const State *state) {
     layout->dimension = (uint64_t)state->box.dimension;
     layout->particles = state->count;
     TRY(image_create(image));
     TRY(write_contents(image->file, layout, state));
     TRY(image_close(image));
-    layout->header = layout->position; // the first room reserved
-    ASSERT(layout->header <= image->size || layout->header == layout->mass);
-    return OK;
+    layout->header = first_room(layout);
+    return check_header_first(layout, image);
 }
 
 Seal layout_seal(const Layout *layout, const Image *image) {
     _Static_assert(sizeof *layout <= sizeof((Seal *)0)->words, "the layout fits into the seal");
-    Seal seal = seal_new(SEAL_TRAJECTORY, image->seal + IMAGE_SEAL);
+    Seal seal = seal_new(SEAL_TRAJECTORY, image->end + sizeof seal);
     memcpy(seal.words, layout, sizeof *layout);
     seal.contents_crc = crc32c(0, image->bytes, layout->header);
     seal_finish(&seal);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "state/state.h"
+#include "store/image.h"
 #include "store/seal.h"
 
 typedef struct Layout {

@@ -341,7 +341,7 @@ static Status read_long_facts(Results *results, hid_t group) {
     for (hsize_t i = 0; i < count; i++) {
         char name[RESULT_NAME];
         if (!link_name(group, i, name)) return strange("perrin");
-        if (strcmp(name, "health") == 0 || strcmp(name, "seal") == 0) continue;
+        if (strcmp(name, "health") == 0) continue;
         TRY(put_fact(results, group, name, true));
     }
     return OK;

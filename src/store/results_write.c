@@ -4,6 +4,7 @@
 #include "base/crc32c.h"
 #include "base/memory.h"
 #include "store/inside.h"
+#include "store/image.h"
 #include "store/seal.h"
 
 #include <math.h>
@@ -186,11 +187,11 @@ static Status build(Image *image, const Results *results) {
     TRY(image_create(image));
     TRY(write_contents(image->file, results));
     TRY(image_close(image));
-    Seal seal = seal_new(SEAL_RESULTS, image->seal + IMAGE_SEAL);
-    TRY(image_complete(image, (const unsigned char *)&seal));
-    seal.contents_crc = crc32c(0, image->bytes, image->seal);
+    Seal seal = seal_new(SEAL_RESULTS, image->end + sizeof seal);
+    TRY(image_complete(image, sizeof seal));
+    seal.contents_crc = crc32c(0, image->bytes, image->end);
     seal_finish(&seal);
-    memcpy(image->bytes + image->seal, &seal, sizeof seal);
+    memcpy(image->bytes + image->end, &seal, sizeof seal);
     return OK;
 }
 

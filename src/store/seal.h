@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The last bytes of our HDF5 files: what kind of file it is, and checksums, so that our own
-// readers know it whole before anything in it is believed. Internal to the store.
+// The last bytes of our HDF5 files, behind what HDF5 looks at: what kind of file it is, and
+// checksums, so that our own readers know it whole before anything in it is believed. Internal to
+// the store.
 #pragma once
 
-#include "store/image.h"
+#include "base/status.h"
 
-enum { SEAL_VERSION = 1, SEAL_WORDS = 20 };
+#include <stdint.h>
+
+enum { SEAL_VERSION = 1, SEAL_WORDS = 20, SEAL_SIZE = 256 };
 
 typedef enum SealKind { SEAL_RESULTS, SEAL_TRAJECTORY } SealKind;
 
@@ -17,10 +20,10 @@ typedef struct Seal {
     uint64_t words[SEAL_WORDS]; // as the kind of file needs them
     uint32_t contents_crc;      // of what the kind of file says
     uint32_t seal_crc;          // of the bytes before it
-    unsigned char rest[IMAGE_SEAL - 32 - 8 * SEAL_WORDS];
+    unsigned char rest[SEAL_SIZE - 32 - 8 * SEAL_WORDS];
 } Seal;
 
-_Static_assert(sizeof(Seal) == IMAGE_SEAL, "the seal fills its room");
+_Static_assert(sizeof(Seal) == SEAL_SIZE, "the seal fills its room");
 
 // `words` and contents_crc are for the caller to set before seal_finish.
 Seal seal_new(SealKind kind, uint64_t file_size);

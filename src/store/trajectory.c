@@ -43,7 +43,7 @@ static Status fill(int file, const Layout *layout, const Image *image, const cha
     const Seal seal = layout_seal(layout, image);
     TRY(allocate(file, seal.size, path));
     TRY(disk_write(file, image->bytes, layout->header, 0, path));
-    return disk_write(file, &seal, sizeof seal, (off_t)image->seal, path);
+    return disk_write(file, &seal, sizeof seal, (off_t)image->end, path);
 }
 
 static Status make_file(const Folder *folder, const char *name, const Layout *layout,

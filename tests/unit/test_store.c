@@ -346,6 +346,36 @@ START_TEST(results_come_back_as_they_were) {
 }
 END_TEST
 
+START_TEST(any_number_of_results_is_kept) {
+    Store *store = open_run();
+    const ResultSeries number = {.stage = "s", .observable = "without axes"};
+    for (int count = 0; count < 600; count += 1 + count / 8) {
+        Results *results = NULL, *found = NULL;
+        ck_assert_int_eq(results_create(&results, 1), OK);
+        const double one = 1;
+        ck_assert_int_eq(results_put_series(results, &number, 0, &one), OK);
+        for (int i = 0; i < count; i++) {
+            char name[16], text[1100];
+            snprintf(name, sizeof name, "name%d", i);
+            memset(text, 'x', sizeof text);
+            text[i % 2 ? 1099 : 10] = '\0'; // a dataset, an attribute
+            ck_assert_int_eq(results_put_scalar(results, "s", name, "", "", 0, i), OK);
+            ck_assert_int_eq(results_put_fact(results, name, text), OK);
+        }
+        ck_assert_msg(store_write_results(store, results) == OK, "%d: %s", count,
+                      status_sentence());
+        ck_assert_msg(store_read_results(&found, path_of("results.h5")) == OK, "%d: %s", count,
+                      status_sentence());
+        ck_assert_uint_eq(found->scalar_count, (size_t)count);
+        ck_assert_uint_eq(found->fact_count, (size_t)count);
+        ck_assert_double_eq(results_find_series(found, "s", "without axes")->values[0], 1);
+        results_free(results);
+        results_free(found);
+    }
+    store_close(store);
+}
+END_TEST
+
 START_TEST(the_same_results_are_the_same_bytes) {
     Store *store = open_run();
     size_t first_size, second_size;
@@ -454,6 +484,28 @@ START_TEST(frames_come_back_and_those_not_written_are_not_there) {
 }
 END_TEST
 
+START_TEST(any_size_of_trajectory_is_written_and_read) {
+    static const size_t particles[] = {2, 3, 7, 64, 500};
+    static const int64_t frames[] = {1, 2, 7, 100, 400};
+    for (size_t i = 0; i < 25; i++) {
+        const int64_t count = frames[i / 5];
+        Store *store = open_run();
+        State *state = some_state(particles[i % 5]);
+        Trajectory *trajectory = NULL;
+        ck_assert_msg(trajectory_open(&trajectory, store, 2, state, count, 0) == OK, "%s",
+                      status_sentence());
+        const int64_t written = count < 10 ? count : 10;
+        ck_assert_int_eq(write_frames(trajectory, state, 0, written), OK);
+        ck_assert_int_eq(trajectory_close(trajectory), OK);
+        has_frames(written);
+        state_free(state);
+        store_close(store);
+        remove_directory();
+        make_directory();
+    }
+}
+END_TEST
+
 START_TEST(a_resumed_trajectory_compares_what_is_there_and_goes_on) {
     Store *store = open_run();
     State *state = some_state(10);
@@ -552,9 +604,11 @@ int main(void) {
     tcase_add_test(tests, every_flipped_bit_and_every_cut_of_a_checkpoint_is_seen);
     tcase_add_test(tests, a_checkpoint_of_another_plan_or_replica_is_refused);
     tcase_add_test(tests, results_come_back_as_they_were);
+    tcase_add_test(tests, any_number_of_results_is_kept);
     tcase_add_test(tests, the_same_results_are_the_same_bytes);
     tcase_add_test(tests, results_cut_or_changed_are_refused_in_a_sentence);
     tcase_add_test(tests, frames_come_back_and_those_not_written_are_not_there);
+    tcase_add_test(tests, any_size_of_trajectory_is_written_and_read);
     tcase_add_test(tests, a_resumed_trajectory_compares_what_is_there_and_goes_on);
     tcase_add_test(tests, a_torn_frame_after_the_checkpoint_is_written_again_and_before_it_refused);
     tcase_add_test(tests, a_trajectory_of_a_stranger_or_cut_off_is_refused);
