@@ -277,7 +277,7 @@ START_TEST(near_pairs_are_those_of_all_pairs) {
     scatter(state, KEY, 0);
     double range = state->box.edge[0] / 2;
     for (int a = 1; a < state->box.dimension; a++) range = fmin(range, state->box.edge[a] / 2);
-    for (; range > 0.2; range *= 0.7) {
+    for (; range > 0.2; range *= 0.8) { // down to two, three, four, ... cells
         NearPairs *pairs = NULL;
         ck_assert_int_eq(near_pairs_create(&pairs, &state->box, state->count, range), OK);
         near_pairs_sort(pairs, state);
@@ -338,6 +338,64 @@ START_TEST(ideal_gas_has_no_structure) {
         }
         ck_assert_double_gt(used, 50);
         ck_assert_double_lt(fabs(chi_deviation(chi, used)), SIGMAS);
+    }
+    results_free(results);
+    kind->free(observer);
+    state_free(state);
+}
+END_TEST
+
+// Counts over all pairs, and the ideal gas's by the definition: one pair of the two species
+// anywhere.
+START_TEST(pair_distribution_agrees_with_its_slow_twin) {
+    const int dimension = 2 + _i;
+    System system = system_of(dimension, 61, 0.2, 2);
+    State *state = new_state(&system);
+    scatter(state, KEY, 5);
+    for (size_t i = 0; i < state->count; i++) state->diameter[i] *= 1 + 0.01 * (double)(i % 10);
+    const Clock clock = clock_of(5, 5);
+    const ObservableKind *kind = &observable_pair_distribution;
+    Settings settings = settings_of(&kind->options);
+    set_number(&settings, &kind->options, "distances.spacing", 0.25);
+    set_number(&settings, &kind->options, "contact.spacing", 0.05);
+    Observer *observer = new_observer(kind, &settings, state, &clock);
+    watch(observer, state, stay, -1, clock.ticks);
+    Results *results = written(observer, state);
+    const ResultSeries *g = series_of(results, "quiescent", "pair_distribution");
+    const ResultSeries *near = series_of(results, "quiescent", "contact_distribution");
+    const ResultSeries *weight = series_of(results, "quiescent", "contact_weight");
+    const size_t bins = g->axis[1].count, near_bins = near->axis[1].count;
+    double counts[3][40] = {{0}}, near_counts[3][8] = {{0}}, pairs[3] = {0}, contacts[3] = {0};
+    ck_assert_uint_le(bins, 40);
+    ck_assert_uint_eq(near_bins, 4);
+    for (size_t i = 0; i < state->count; i++) {
+        for (size_t j = 0; j < i; j++) {
+            const size_t pair = pair_index(state->species_of[i], state->species_of[j], 2);
+            const double contact = (state->diameter[i] + state->diameter[j]) / 2;
+            const double r = nearest_distance(state, i, j);
+            if (r < 0.25 * (double)bins) counts[pair][(size_t)(r / 0.25)]++;
+            if (r < 1.2 * contact) near_counts[pair][(size_t)fmax((r / contact - 1) / 0.05, 0)]++;
+            pairs[pair]++;
+            contacts[pair] += pow(contact, dimension);
+        }
+    }
+    const double volume = box_volume(&state->box), ball = dimension == 2 ? PI : 4 * PI / 3;
+    for (size_t pair = 0; pair < 3; pair++) {
+        for (size_t k = 0; k < bins; k++) {
+            const double shell =
+                ball * (pow(0.25 * (double)(k + 1), dimension) - pow(0.25 * (double)k, dimension));
+            ck_assert_double_eq_tol(g->values[pair * bins + k],
+                                    counts[pair][k] * volume / (pairs[pair] * shell), 1e-9);
+        }
+        for (size_t k = 0; k < near_bins; k++) {
+            const double shell = ball * (pow(1 + 0.05 * (double)(k + 1), dimension) -
+                                         pow(1 + 0.05 * (double)k, dimension));
+            ck_assert_double_eq_tol(near->values[pair * near_bins + k],
+                                    near_counts[pair][k] * volume / (contacts[pair] * shell), 1e-9);
+        }
+        const double solid_angle = dimension * ball;
+        ck_assert_double_eq_tol(weight->values[pair],
+                                solid_angle * contacts[pair] / (dimension * 61 * volume), 1e-12);
     }
     results_free(results);
     kind->free(observer);
@@ -649,6 +707,7 @@ static Suite *suite(void) {
                         (int)kinds);
     tcase_add_loop_test(c, near_pairs_are_those_of_all_pairs, 0, 4);
     tcase_add_loop_test(c, ideal_gas_has_no_structure, 0, 2);
+    tcase_add_loop_test(c, pair_distribution_agrees_with_its_slow_twin, 0, 2);
     tcase_add_loop_test(c, ideal_gas_scatters_as_its_particles, 0, 2);
     tcase_add_test(c, structure_factor_agrees_with_its_slow_twin);
     tcase_add_loop_test(c, density_modes_have_the_same_bits_on_every_path, 0, 2);
