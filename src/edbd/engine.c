@@ -35,6 +35,7 @@ static Status allocate(Engine *engine) {
     }
     TRY(NEW_ARRAY(engine->snapshot.rows, slots * engine->row));
     for (engine->buckets = 64; engine->buckets < count / 4;) engine->buckets *= 2;
+    engine->buckets_per_time = engine->buckets / engine->settings.window;
     TRY(NEW_ARRAY(engine->bucket, engine->buckets));
     engine->event_capacity = (uint32_t)(count + 64);
     TRY(NEW_ARRAY(engine->events, engine->event_capacity));

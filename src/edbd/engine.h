@@ -110,6 +110,7 @@ struct Engine {
     uint32_t event_capacity, events_used, free_event;
     uint32_t *bucket; // [buckets] first event of each slice of the window
     uint32_t buckets; // a power of two
+    double buckets_per_time;
 
     int64_t careful; // windows still to be done with a new list each
     int outgrown;    // the events did not fit

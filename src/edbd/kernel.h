@@ -67,7 +67,7 @@ KERNEL Lanes gap_time(Gap gap) {
 }
 
 KERNEL uint32_t *bucket_of(Engine *engine, double time) {
-    const double slice = time * (engine->buckets / engine->settings.window);
+    const double slice = time * engine->buckets_per_time;
     const uint32_t last = engine->buckets - 1;
     return &engine->bucket[slice < last ? (uint32_t)slice : last];
 }
@@ -128,20 +128,23 @@ KERNEL size_t find_hits(const int dimension, const int growing, Engine *engine, 
 
 KERNEL void predict_all(const int dimension, const int growing, Engine *engine, Growth growth) {
     const NeighbourList *list = &engine->list;
-    const size_t hits = find_hits(dimension, growing, engine, growth);
     const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D;
+    const size_t hits = find_hits(dimension, growing, engine, growth);
+    for (size_t k = 0; k < LANES; k++) list->hits[hits + k] = 0; // fills the last LANES
     for (size_t h = 0; h < hits; h += LANES) {
         uint32_t first[LANES], second[LANES];
-        Lanes contact2 = {0};
-        const size_t lanes = hits - h < LANES ? hits - h : LANES;
+        double contact2[LANES];
         for (size_t k = 0; k < LANES; k++) {
-            const uint32_t pair = list->hits[k < lanes ? h + k : h];
+            const uint32_t pair = list->hits[h + k];
             first[k] = list->near_first[pair];
             second[k] = list->near_second[pair];
             contact2[k] = list->near_contact2[pair];
         }
-        const Lanes time =
-            gap_time(pair_gap(dimension, growing, engine, first, second, contact2, growth));
+        double time[LANES];
+        const Gap gap =
+            pair_gap(dimension, growing, engine, first, second, lanes_load_at(contact2), growth);
+        lanes_store_at(time, gap_time(gap));
+        const size_t lanes = hits - h < LANES ? hits - h : LANES;
         for (size_t k = 0; k < lanes; k++) {
             event_put(engine, time[k], first[k] / row, second[k] / row);
         }
@@ -166,7 +169,8 @@ KERNEL void predict_one(const int dimension, const int growing, Engine *engine, 
         const Gap gap = gap_of(dimension, growing, r, v, lanes_load(list->contact2 + n), s, growth);
         unsigned bits = lanes_bits(gap_closes(growing, gap, engine->settings.window - s));
         if (!bits) continue;
-        const Lanes time = lanes_all(s) + gap_time(gap);
+        double time[LANES];
+        lanes_store_at(time, lanes_all(s) + gap_time(gap));
         for (; bits; bits &= bits - 1) {
             const int k = __builtin_ctz(bits);
             event_put(engine, time[k], slot, list->neighbour[n + (size_t)k] / (uint32_t)row);
@@ -221,10 +225,43 @@ KERNEL void kick(const int dimension, double *row, const double change[3], doubl
 #endif
 }
 
+// Sums of r_a r_c over collisions, weighted by momentum: xx xy yy in 2D; xx xy xz yy, yz zz in 3D.
+typedef struct Exchange {
+    Quad low, high;
+} Exchange;
+
+KERNEL void exchange_add(const int dimension, Exchange *sums, const double r[3], double momentum) {
+    const Quad weight = {momentum, momentum, momentum, momentum};
+    if (dimension == 2) {
+        sums->low += weight * ((Quad){r[0], r[0], r[1], 0} * (Quad){r[0], r[1], r[1], 0});
+        return;
+    }
+    sums->low += weight * ((Quad){r[0], r[0], r[0], r[1]} * (Quad){r[0], r[1], r[2], r[1]});
+    sums->high += weight * ((Quad){r[1], r[2], 0, 0} * (Quad){r[2], r[2], 0, 0});
+}
+
+KERNEL Exchange exchange_open(const int dimension, const Tally *tally) {
+    const double(*sum)[3] = tally->exchange;
+    if (dimension == 2) return (Exchange){.low = {sum[0][0], sum[0][1], sum[1][1], 0}};
+    return (Exchange){.low = {sum[0][0], sum[0][1], sum[0][2], sum[1][1]},
+                      .high = {sum[1][2], sum[2][2], 0, 0}};
+}
+
+KERNEL void exchange_close(const int dimension, const Exchange *sums, Tally *tally) {
+    double(*sum)[3] = tally->exchange;
+    sum[0][0] = sums->low[0];
+    sum[0][1] = sum[1][0] = sums->low[1];
+    sum[1][1] = sums->low[dimension == 2 ? 2 : 3];
+    if (dimension == 2) return;
+    sum[0][2] = sum[2][0] = sums->low[2];
+    sum[1][2] = sum[2][1] = sums->high[0];
+    sum[2][2] = sums->high[1];
+}
+
 // The elastic collision (Weysser, thesis, eq. 2.5, divided by r^2 as it must be): momentum
 // -2 m_i m_j/(m_i + m_j) b r/r^2 goes to i, its mirror image to j; r = r_i - r_j, b = r.v.
 KERNEL void collide(const int dimension, const int growing, Engine *engine, const Event *event,
-                    Growth growth, double exchange[6]) {
+                    Growth growth, Exchange *sums) {
     const size_t row = dimension == 2 ? ROW_2D : ROW_3D, velocity = row / 2;
     const uint32_t slot_i = event->first, slot_j = event->second;
     double *i = engine->rows + row * slot_i, *j = engine->rows + row * slot_j;
@@ -250,11 +287,11 @@ KERNEL void collide(const int dimension, const int growing, Engine *engine, cons
     const double k = -2 * b / (r2 * (mass_i + mass_j));
     const double k_i = k * mass_j, k_j = -(k * mass_i), momentum = k * mass_j * mass_i;
     double change_i[3], change_j[3];
-    for (int a = 0, e = 0; a < dimension; a++) {
+    for (int a = 0; a < dimension; a++) {
         change_i[a] = k_i * r[a];
         change_j[a] = k_j * r[a];
-        for (int c = a; c < dimension; c++) exchange[e++] += momentum * (r[a] * r[c]);
     }
+    exchange_add(dimension, sums, r, momentum);
     kick(dimension, i, change_i, t);
     kick(dimension, j, change_j, t);
     engine->tally.collisions++;
@@ -293,33 +330,20 @@ KERNEL uint32_t *earliest(Engine *engine, uint32_t *bucket) {
     return best;
 }
 
-// The sums of the tally as registers can hold them: xx xy (xz) yy (yz zz), symmetric.
-KERNEL void exchange_copy(const int dimension, Tally *tally, double exchange[6], int back) {
-    for (int a = 0, e = 0; a < dimension; a++) {
-        for (int c = a; c < dimension; c++, e++) {
-            if (back)
-                tally->exchange[a][c] = tally->exchange[c][a] = exchange[e];
-            else
-                exchange[e] = tally->exchange[a][c];
-        }
-    }
-}
-
 KERNEL void carry_out(const int dimension, const int growing, Engine *engine, Growth growth) {
-    double exchange[6];
-    exchange_copy(dimension, &engine->tally, exchange, 0);
+    Exchange sums = exchange_open(dimension, &engine->tally);
     for (uint32_t b = 0; b < engine->buckets && !engine->hung; b++) {
         uint32_t *link;
         while (engine->bucket[b] != NO_EVENT && (link = earliest(engine, &engine->bucket[b]))) {
             const Event event = engine->events[*link];
             event_drop(engine, link);
-            collide(dimension, growing, engine, &event, growth, exchange);
+            collide(dimension, growing, engine, &event, growth, &sums);
             if (engine->hung) break;
             predict_one(dimension, growing, engine, event.first, event.time, growth);
             predict_one(dimension, growing, engine, event.second, event.time, growth);
         }
     }
-    exchange_copy(dimension, &engine->tally, exchange, 1);
+    exchange_close(dimension, &sums, &engine->tally);
 }
 
 // Back into [0, edge); the anchor goes along, for the distance to it must not jump.
@@ -378,15 +402,19 @@ KERNEL void redraw_all(const int dimension, Engine *engine) {
     }
 }
 
+// Works on a copy of the engine's own fields: what is written to rows and lists cannot be it, so
+// they stay in registers.
 KERNEL void run(const int dimension, const int growing, Engine *engine) {
-    const Growth growth = {.scale = engine->scale, .rate = engine->growth};
-    engine->events_used = 0;
-    engine->free_event = NO_EVENT;
-    memset(engine->stamp, 0, (engine->count + 1) * sizeof *engine->stamp);
-    memset(engine->bucket, 0xff, engine->buckets * sizeof *engine->bucket);
-    predict_all(dimension, growing, engine, growth);
-    carry_out(dimension, growing, engine, growth);
-    move_all(dimension, engine);
+    Engine own = *engine;
+    const Growth growth = {.scale = own.scale, .rate = own.growth};
+    own.events_used = 0;
+    own.free_event = NO_EVENT;
+    memset(own.stamp, 0, (own.count + 1) * sizeof *own.stamp);
+    memset(own.bucket, 0xff, own.buckets * sizeof *own.bucket);
+    predict_all(dimension, growing, &own, growth);
+    carry_out(dimension, growing, &own, growth);
+    move_all(dimension, &own);
+    *engine = own;
 }
 
 // Becomes: the two kernels of an instruction set.

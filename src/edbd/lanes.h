@@ -124,6 +124,10 @@ KERNEL Lanes lanes_load_at(const double *from) { // at any address
     return lanes;
 }
 
+KERNEL void lanes_store_at(double *to, Lanes lanes) {
+    memcpy(to, &lanes, sizeof lanes);
+}
+
 // Writes first + k step for each set bit k; room for LANES numbers is needed.
 KERNEL void lanes_pack_numbers(uint32_t *to, unsigned bits, uint32_t first, uint32_t step) {
 #if LANES == 8

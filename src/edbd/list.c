@@ -9,8 +9,8 @@
 #include <string.h>
 
 // Skins in d, found by measurement: wide ones cost pairs, narrow ones rebuilding.
-static const double SKIN_DIFFUSIVE[2] = {0.45, 0.30}; // 2D, 3D, velocities drawn in every window
-static const double SKIN_BALLISTIC[2] = {0.70, 0.45}; // or kept for many
+static const double SKIN_DIFFUSIVE[2] = {0.50, 0.45}; // 2D, 3D, velocities drawn in every window
+static const double SKIN_BALLISTIC[2] = {0.70, 0.55}; // or kept for many
 static const double SKIN_WINDOWS = 16;       // least skin, in thermal flights of one window
 static const double INNER_SKIN_WINDOWS = 40; // the inner skin, in the same,
 static const double INNER_SKIN_MOST = 0.3;   // where that is below this part of the outer
