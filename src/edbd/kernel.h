@@ -363,32 +363,63 @@ KERNEL void fold(Engine *engine, double *row, uint32_t slot, int axis) {
     }
 }
 
-KERNEL void move_all(const int dimension, Engine *engine) {
-    const double w = engine->settings.window;
-    const double *edge = engine->edge;
+// To the end of the window: a row in 3D, a row or two in 2D, as many as a register holds.
+KERNEL void move_rows(const int dimension, Engine *engine, uint32_t slot, Quad *farthest) {
+    const double w = engine->settings.window, *edge = engine->edge;
     const Quad least = {0, 0, dimension == 2 ? -INFINITY : 0, -INFINITY};
     const Quad bound = {edge[0], edge[1], dimension == 2 ? INFINITY : edge[2], INFINITY};
-    Quad farthest = {0};
-    for (uint32_t slot = 0; slot < engine->count; slot++) {
-        double *row = engine->rows + (size_t)(dimension == 2 ? ROW_2D : ROW_3D) * slot;
-        Quad place = *(const Quad *)row;
-        if (dimension == 2)
-            place += __builtin_shufflevector(place, place, 2, 3, 2, 3) * (Quad){w, w};
-        else
-            place += *(const Quad *)(row + 4) * (Quad){w, w, w};
-        *(Quad *)row = place;
-        const Quad away = place - *(const Quad *)(engine->list.anchor + (size_t)ANCHOR * slot);
-        Quad away2 = away * away;
-        if (dimension == 2)
-            away2 += __builtin_shufflevector(away2, away2, 1, 0, 2, 3);
-        else
-            away2 += __builtin_shufflevector(away2, away2, 1, 0, 3, 2);
-        if (dimension == 3) away2 += __builtin_shufflevector(away2, away2, 2, 3, 0, 1);
-        quad_keep_larger(&farthest, &away2);
-        if (__builtin_expect(quad_strays(&place, &least, &bound), 0)) {
-            for (int a = 0; a < dimension; a++) fold(engine, row, slot, a);
-        }
+    double *row = engine->rows + (size_t)(dimension == 2 ? ROW_2D : ROW_3D) * slot;
+    Quad place = *(const Quad *)row;
+    if (dimension == 2)
+        place += __builtin_shufflevector(place, place, 2, 3, 2, 3) * (Quad){w, w};
+    else
+        place += *(const Quad *)(row + 4) * (Quad){w, w, w};
+    *(Quad *)row = place;
+    const Quad away = place - *(const Quad *)(engine->list.anchor + (size_t)ANCHOR * slot);
+    Quad away2 = away * away;
+    if (dimension == 2)
+        away2 += __builtin_shufflevector(away2, away2, 1, 0, 2, 3);
+    else
+        away2 += __builtin_shufflevector(away2, away2, 1, 0, 3, 2);
+    if (dimension == 3) away2 += __builtin_shufflevector(away2, away2, 2, 3, 0, 1);
+    quad_keep_larger(farthest, &away2);
+    if (__builtin_expect(!quad_strays(&place, &least, &bound), 1)) return;
+    for (int a = 0; a < dimension; a++) fold(engine, row, slot, a);
+}
+
+#if LANES == 8
+// As move_rows, two rows of 2D at a time; `slot` is even.
+KERNEL void move_two_rows(Engine *engine, uint32_t slot, Lanes *farthest) {
+    const double w = engine->settings.window, *edge = engine->edge, big = INFINITY;
+    const Lanes least = {0, 0, -big, -big, 0, 0, -big, -big};
+    const Lanes bound = {edge[0], edge[1], big, big, edge[0], edge[1], big, big};
+    double *row = engine->rows + (size_t)ROW_2D * slot;
+    Lanes place = lanes_load(row);
+    place += __builtin_shufflevector(place, place, 2, 3, 2, 3, 6, 7, 6, 7) *
+             (Lanes){w, w, 0, 0, w, w, 0, 0};
+    lanes_store(row, place);
+    const Lanes away = place - lanes_load(engine->list.anchor + (size_t)ANCHOR * slot);
+    Lanes away2 = away * away;
+    away2 += __builtin_shufflevector(away2, away2, 1, 0, 2, 3, 5, 4, 6, 7);
+    *farthest = (Lanes)_mm512_max_pd((__m512d)*farthest, (__m512d)away2);
+    const unsigned inside = lanes_less(place, bound) & (unsigned)~lanes_less(place, least);
+    if (__builtin_expect((inside & 0xffu) == 0xffu, 1)) return;
+    for (uint32_t k = 0; k < 2; k++) {
+        for (int a = 0; a < 2; a++) fold(engine, row + ROW_2D * k, slot + k, a);
     }
+}
+#endif
+
+KERNEL void move_all(const int dimension, Engine *engine) {
+    Quad farthest = {0};
+    uint32_t slot = 0;
+#if LANES == 8
+    Lanes farthest_two = {0};
+    const uint32_t even = dimension == 2 ? (uint32_t)engine->count & ~1u : 0;
+    for (; slot < even; slot += 2) move_two_rows(engine, slot, &farthest_two);
+    farthest[0] = fmax(farthest_two[0], farthest_two[4]);
+#endif
+    for (; slot < engine->count; slot++) move_rows(dimension, engine, slot, &farthest);
     if (farthest[0] > engine->list.farthest2) engine->list.farthest2 = farthest[0];
 }
 
