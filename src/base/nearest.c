@@ -29,13 +29,24 @@ size_t word_distance(const char *a, const char *b) {
     return distance[rows % 3][columns];
 }
 
+// For a part of a longer word, as "density" of "number_density": the shortest word that has it.
+static size_t word_around(const char *part, const char *const *words, size_t count) {
+    enum { PART_LEAST = 4 }; // letters; shorter parts are in too many words
+    size_t around = count;
+    for (size_t i = 0; strlen(part) >= PART_LEAST && i < count; i++) {
+        if (!strstr(words[i], part)) continue;
+        if (around == count || strlen(words[i]) < strlen(words[around])) around = i;
+    }
+    return around;
+}
+
 size_t nearest_word(const char *word, const char *const *words, size_t count) {
-    size_t nearest = count, shortest = strlen(word) / 2 + 2; // half the word may be wrong
+    size_t nearest = count, shortest = (strlen(word) + 2) / 3 + 1; // a third may be wrong
     for (size_t i = 0; i < count; i++) {
         const size_t distance = word_distance(word, words[i]);
         if (distance >= shortest) continue;
         shortest = distance;
         nearest = i;
     }
-    return nearest;
+    return nearest < count ? nearest : word_around(word, words, count);
 }

@@ -7,5 +7,6 @@
 // Insertions, deletions, replacements and swaps of neighbouring letters that lead from a to b.
 size_t word_distance(const char *a, const char *b);
 
-// The index of the nearest of `count` words; `count` if none is near enough to be meant.
+// The index of the nearest of `count` words, or of one that `word` is a part of; `count` if none is
+// near enough to be meant.
 size_t nearest_word(const char *word, const char *const *words, size_t count);

@@ -189,8 +189,8 @@ Status config_explain(const char *word, FILE *out) {
         found = explain_in_section(&section, word, out) || found;
     }
     if (found) return OK;
-    const char *later = section_later(word);
-    return later ? status_fail(BAD_USAGE, "%s: %s", word, later) : fail_unknown(word);
+    const char *hint = section_hint(word);
+    return hint ? status_fail(BAD_USAGE, "%s: %s", word, hint) : fail_unknown(word);
 }
 
 // A bar would end the cell of a table.

@@ -4,6 +4,7 @@
 #include "config/judge.h"
 
 #include "base/constants.h"
+#include "base/nearest.h"
 #include "base/number.h"
 #include "packing/packing.h"
 
@@ -40,6 +41,21 @@ static Status placed(const Node *root, const Node *node, Status status) {
     return tree_fail(named ? named : node, "%s", sentence);
 }
 
+// A distribution without a width, or a width without a distribution, would be equal sizes unseen.
+static Status judge_spread(const Node *node, const Species *species) {
+    const bool distributed = species->spread != SPREAD_NONE, wide = species->spread_width > 0;
+    if (distributed == wide) return OK;
+    if (wide)
+        return tree_fail(place(node, "spread", "width"),
+                         "width = %g without a distribution; expected spread: {distribution: "
+                         "gaussian, width: %g} or uniform",
+                         species->spread_width, species->spread_width);
+    return tree_fail(place(node, "spread", "distribution"),
+                     "distribution = %s without a width; expected spread: {distribution: %s, "
+                     "width: 0.1}",
+                     spread_names[species->spread], spread_names[species->spread]);
+}
+
 static Status judge_species(const Node *map, const System *system) {
     double sum = 0;
     size_t counts[SPECIES_MOST];
@@ -50,6 +66,7 @@ static Status judge_species(const Node *map, const System *system) {
             return tree_fail(place(nth(map, s), "shape", NULL),
                              "shape = %s lives in %d dimensions, but dimension = %d",
                              shape_names[shape], shape_dimension(shape), (int)system->dimension);
+        TRY(judge_spread(nth(map, s), &system->species[s]));
     }
     if (!(fabs(sum - 1) <= FRACTIONS_OFF))
         return tree_fail(map, "the fractions of the species add to %.10g; they must add to 1", sum);
@@ -165,9 +182,23 @@ static Status judge_stage(const Node *root, const Plan *plan, size_t index) {
     return OK;
 }
 
+static Status judge_output(const Node *root, const Plan *plan) {
+    const char *recorded = plan->output.trajectory_stage, *names[STAGES_MOST];
+    if (recorded[0] == '\0') return OK;
+    for (size_t s = 0; s < plan->stage_count; s++) {
+        names[s] = plan->stages[s].name;
+        if (strcmp(names[s], recorded) == 0) return OK;
+    }
+    const size_t nearest = nearest_word(recorded, names, plan->stage_count);
+    const Node *trajectory = place(tree_find(root, "output"), "trajectory", "stage");
+    return tree_fail(trajectory, "trajectory.stage: there is no stage '%s'; did you mean %s?",
+                     recorded, names[nearest < plan->stage_count ? nearest : 0]);
+}
+
 Status judge_plan(const Node *root, const Plan *plan) {
     TRY(judge_system(root, &plan->system));
     for (size_t s = 0; s < plan->stage_count; s++) TRY(judge_stage(root, plan, s));
+    TRY(judge_output(root, plan));
     return placed(root, root, plan_check(plan));
 }
 

@@ -144,8 +144,8 @@ static Status read_choice(const Option *row, const Node *node, int64_t *value) {
     for (; row->choices[count]; count++) {
         if (strcmp(node->text, row->choices[count]) == 0) return *value = (int64_t)count, OK;
     }
-    const char *later = section_later(node->text);
-    if (later) return tree_fail(node, "%s = %s: %s", row->name, node->text, later);
+    const char *hint = section_hint(node->text);
+    if (hint) return tree_fail(node, "%s = %s: %s", row->name, node->text, hint);
     const size_t nearest = nearest_word(node->text, row->choices, count);
     if (nearest == count) return fail_kind(row, node);
     char shown[QUOTE_SIZE];
@@ -211,7 +211,7 @@ static Status read_choices(const Option *row, const Node *node, uint64_t *set) {
 
 static Status read_duration(const Option *row, const Node *node, double *seconds) {
     if (node->kind != NODE_WORD) return fail_kind(row, node);
-    const size_t digits = strcspn(node->text, " ");
+    const size_t digits = strcspn(node->text, " smhd"); // "600 s" or "600s"
     const char *unit = node->text + digits + strspn(node->text + digits, " ");
     char number[NUMBER_SIZE] = "";
     if (digits < sizeof number) memcpy(number, node->text, digits);
@@ -385,8 +385,8 @@ static void known_collect(KnownKeys *known, const OptionMap *options, const char
 static Status fail_unknown(const OptionMap *options, const Node *node, const char *prefix) {
     char shown[QUOTE_SIZE];
     tree_quote(shown, node->key);
-    const char *later = section_later(node->key);
-    if (later) return tree_fail(node, "%s: %s", shown, later);
+    const char *hint = section_hint(node->key);
+    if (hint) return tree_fail(node, "%s: %s", shown, hint);
     if (strchr(node->key, '.'))
         return tree_fail(node, "the key '%s' has a dot; write a map in a map, as %.*s: {...}",
                          shown, (int)strcspn(shown, "."), shown);
@@ -395,18 +395,19 @@ static Status fail_unknown(const OptionMap *options, const Node *node, const cha
     const size_t nearest = nearest_word(node->key, known.pointers, known.count);
     const bool near = nearest < known.count;
     const bool slip = near && word_distance(node->key, known.names[nearest]) == 1;
-    char home[SECTION_HOME_SIZE];
+    char home[SECTION_HOME_SIZE], map[SECTION_HOME_SIZE];
+    const int below = prefix[0] ? (int)strlen(prefix) - 1 : 0; // without its dot
+    snprintf(map, sizeof map, "%.*s%s%s", below, prefix, below ? " of " : "", options->name);
     if (!slip && section_of_key(node->key, home))
-        return tree_fail(node, "unknown key '%s' in %s; it belongs in %s", shown, options->name,
-                         home);
+        return tree_fail(node, "unknown key '%s' in %s; it belongs in %s", shown, map, home);
     if (near)
-        return tree_fail(node, "unknown key '%s' in %s; did you mean '%s'?", shown, options->name,
+        return tree_fail(node, "unknown key '%s' in %s; did you mean '%s'?", shown, map,
                          known.names[nearest]);
     Text names = {0};
     for (size_t i = 0; i < known.count; i++)
         text_add(&names, "%s%s", i ? ", " : "", known.names[i]);
-    const Status status = tree_fail(node, "unknown key '%s' in %s; expected %s", shown,
-                                    options->name, known.count ? text_words(&names) : "nothing");
+    const Status status = tree_fail(node, "unknown key '%s' in %s; expected %s", shown, map,
+                                    known.count ? text_words(&names) : "nothing");
     text_free(&names);
     return status;
 }

@@ -20,8 +20,8 @@ static Status fail_unknown_name(const Node *node, const char *what, const char *
                                 const char *const *names, size_t count) {
     char shown[QUOTE_SIZE];
     tree_quote(shown, word);
-    const char *later = section_later(word);
-    if (later) return tree_fail(node, "%s: %s", shown, later);
+    const char *hint = section_hint(word);
+    if (hint) return tree_fail(node, "%s: %s", shown, hint);
     const size_t nearest = nearest_word(word, names, count);
     if (nearest < count)
         return tree_fail(node, "unknown %s '%s'; did you mean %s?", what, shown, names[nearest]);

@@ -113,7 +113,7 @@ bool section_of_key(const char *key, char home[SECTION_HOME_SIZE]) {
 static const struct {
     const char *word;
     const char *sentence;
-} later[] = {
+} hints[] = {
     {"shear_rate", "this version has no shear; its stages are at rest"},
     {"strain", "this version has no shear; give the stage a time"},
     {"oscillate", "this version has no oscillatory shear; its stages are at rest"},
@@ -131,11 +131,30 @@ static const struct {
     {"stress", "this version does not measure it; pressure is there"},
     {"self_scattering", "this version does not measure it; structure_factor is there"},
     {"coherent_scattering", "this version does not measure it; structure_factor is there"},
+    {"N", "the number of particles is called particles"},
+    {"phi", "the packing fraction is called packing_fraction"},
+    {"volume_fraction", "it is called packing_fraction"},
+    {"area_fraction", "it is called packing_fraction"},
+    {"rho", "the number density is called number_density"},
+    {"sigma", "sizes are given as a diameter"},
+    {"radius", "sizes are given as a diameter"},
+    {"polydispersity", "it is written spread: {distribution: gaussian, width: 0.1}"},
+    {"circle", "the shape in two dimensions is called disc"},
+    {"temperature", "energies are in units of kT, so that there is no temperature to set"},
+    {"dt", "motion goes from event to event, without a time step; see thermostat_interval"},
+    {"timestep", "motion goes from event to event, without a time step; see thermostat_interval"},
+    {"time_step", "motion goes from event to event, without a time step; see thermostat_interval"},
+    {"steps", "a stage lasts a time, not a number of steps"},
+    {"brownian", "Brownian dynamics is the method event-driven"},
+    {"langevin", "Brownian dynamics is the method event-driven"},
+    {"msd", "it is called mean_squared_displacement"},
+    {"rdf", "it is called pair_distribution"},
+    {"g_of_r", "it is called pair_distribution"},
 };
 
-const char *section_later(const char *word) {
-    for (size_t i = 0; i < COUNT(later); i++) {
-        if (strcmp(later[i].word, word) == 0) return later[i].sentence;
+const char *section_hint(const char *word) {
+    for (size_t i = 0; i < COUNT(hints); i++) {
+        if (strcmp(hints[i].word, word) == 0) return hints[i].sentence;
     }
     return NULL;
 }

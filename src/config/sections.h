@@ -22,9 +22,9 @@ Section section_at(size_t index);
 // Where a key belongs, as "system" or "dynamics with method: newtonian"; false if nowhere.
 bool section_of_key(const char *key, char home[SECTION_HOME_SIZE]);
 
-// What to say to a word of other engines, drives and theories that this version does not have;
-// NULL for a word that no version knows.
-const char *section_later(const char *word);
+// What to say to a word of other engines, drives and theories that this version does not have, and
+// to a word by which other programs call what is called otherwise here; NULL for any other word.
+const char *section_hint(const char *word);
 
 extern const OptionTable section_title_options;  // `title`, of the Plan
 extern const OptionTable section_method_options; // `method` of `dynamics`, a char[OPTION_TEXT_SIZE]

@@ -144,8 +144,17 @@ static Status next_event(TreeReader *reader, yaml_event_t *event) {
     const yaml_parser_t *parser = &reader->parser;
     if (parser->error == YAML_MEMORY_ERROR)
         return status_fail(NO_MEMORY, "out of memory while reading %s", reader->name);
-    return reader_fail(reader, parser->problem_mark, "not valid YAML: %s",
-                       parser->problem ? parser->problem : "it cannot be read");
+    const char *problem = parser->problem ? parser->problem : "it cannot be read";
+    // A key without a colon is noticed only at what follows; a colon too many, at once.
+    if (strstr(problem, "could not find expected ':'"))
+        return reader_fail(
+            reader, parser->context_mark,
+            "not valid YAML: a key without ': ' behind it; a blank follows the colon");
+    if (strstr(problem, "mapping values are not allowed"))
+        return reader_fail(reader, parser->problem_mark,
+                           "not valid YAML: no key can begin here; keys of one map are indented "
+                           "alike, and a text with ': ' in it is written in quotes");
+    return reader_fail(reader, parser->problem_mark, "not valid YAML: %s", problem);
 }
 
 static Status check_plain(const TreeReader *reader, const yaml_event_t *event) {

@@ -268,8 +268,9 @@ START_TEST(every_type_is_refused_with_what_was_expected) {
         {"reals: {x: 1}", "test:1:1: error: reals is a map; expected a list of numbers"},
         {"below: {duration: [1 s]}", "test:1:9: error: below.duration is a list; expected a "
                                      "duration such as 600 s, 10 min or 2 h, from 0 to 1e6 s"},
-        {"below: {real: 1}", "test:1:9: error: unknown key 'real' in all types; expected duration, "
-                             "integer"},
+        {"below: {real: 1}",
+         "test:1:9: error: unknown key 'real' in below of all types; expected duration, "
+         "integer"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         AllTypes values = {0};
