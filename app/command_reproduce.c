@@ -30,10 +30,13 @@ static Status reproduce(const Arguments *arguments) {
     Gallery gallery;
     TRY(gallery_find(&gallery));
     if (arguments->operands == 0) return gallery_list(&gallery, stdout);
+    Status worst = OK;
     for (size_t i = 0; i < arguments->operands; i++) {
-        TRY(reproduce_entry(&gallery, arguments->operand[i], arguments));
+        const Status status = reproduce_entry(&gallery, arguments->operand[i], arguments);
+        if (status != OK && status != UNHEALTHY) return status;
+        if (status != OK) worst = status; // a missed expectation does not keep others from theirs
     }
-    return OK;
+    return worst;
 }
 
 static const Flag flags[] = {

@@ -6,7 +6,7 @@ henderson(x) = (1 + x**2/8)/(1 - x)**2
 jenkins_mancini(x) = (1 - share)/(1 - x) + share*henderson(x)
 set xlabel "packing fraction"
 set ylabel "Z (1 - phi)^2"
-set key bottom left
+set key top left
 set xrange [0:0.82]
 plot jenkins_mancini(x)*(1 - x)**2 with lines linetype 5 title "Jenkins and Mancini", \
      "verdict.csv" using 3:(of("published", 12, $7*(1 - $3)**2)) with points pointtype 4 pointsize 1.3 \
