@@ -72,6 +72,16 @@ same() {
     done
 }
 
+# reference: an undisturbed run in $work/reference, and the seconds it took in $duration.
+reference() {
+    from=$(awk '{ print $1 }' /proc/uptime)
+    start "$work/reference" >"$work/out" 2>&1 || fail "the undisturbed run: $(cat "$work/out")"
+    duration=$(awk -v from="$from" '{ print $1 - from + 0.01 }' /proc/uptime)
+}
+
+# part SHARE: that share of the duration.
+part() { awk -v d="$duration" -v share="$1" 'BEGIN { print d * share }'; }
+
 # pause FROM TO: sleeps a random time between, in seconds; SEED says which.
 SEED=${SEED:-1}
 pause() {

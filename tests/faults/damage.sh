@@ -6,7 +6,7 @@
 PROGRAM=$1 SAME=$2
 . "$(dirname "$0")/common.sh"
 
-start "$work/reference" >"$work/out" 2>&1 || fail "the undisturbed run: $(cat "$work/out")"
+reference
 a=$work/run/checkpoint/replica-0000.a b=$work/run/checkpoint/replica-0000.b
 trajectory=$work/run/trajectory/replica-0001.h5
 cases=0
@@ -17,7 +17,11 @@ if is_perrin; then
     launch "$work/stopped" >"$work/out" 2>&1 &
     process=$!
     until [ -e "$work/stopped/checkpoint/replica-0000.b" ] &&
-        [ -e "$work/stopped/checkpoint/replica-0001.b" ]; do sleep 0.01; done
+        [ -e "$work/stopped/checkpoint/replica-0001.b" ]; do
+        kill -0 $process 2>/dev/null || break
+        sleep 0.01
+    done
+    [ -e "$work/stopped/checkpoint/replica-0001.b" ] || fail "the run is over before it can be stopped"
     kill -KILL $process 2>/dev/null
     wait $process 2>/dev/null
 else

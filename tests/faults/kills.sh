@@ -5,14 +5,14 @@
 PROGRAM=$1 SAME=$2 KILLS=$3
 . "$(dirname "$0")/common.sh"
 
-start "$work/reference" >"$work/out" 2>&1 || fail "the undisturbed run: $(cat "$work/out")"
+reference
 kills=0 chains=0
 while [ $kills -lt "$KILLS" ]; do
     rm -rf "$work/run"
     while :; do
         launch "$work/run" >"$work/out" 2>&1 &
         process=$!
-        pause 0.01 "${LATEST:-0.3}"
+        pause 0.01 "$(part 0.5)"
         kill -KILL $process 2>/dev/null
         code=0
         wait $process 2>/dev/null || code=$?

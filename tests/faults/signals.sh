@@ -2,20 +2,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # signals.sh PERRIN SAME ROUNDS: SIGTERM, SIGINT and SIGUSR1 at random times end a run within a
 # second by exit code 75 and a sentence that says how to resume; SIGUSR2 lets it go on. The data
-# are those of an undisturbed run. The run must last some seconds.
+# are those of an undisturbed run. The run must last a second.
 PROGRAM=$1 SAME=$2 ROUNDS=$3
 . "$(dirname "$0")/common.sh"
 
 milliseconds() { awk '{ print int($1 * 1000) }' /proc/uptime; }
 
-start "$work/reference" >"$work/out" 2>&1 || fail "the undisturbed run: $(cat "$work/out")"
+reference
 stopped=0 slowest=0
 
 interrupt() { # SIGNAL
     rm -rf "$work/run"
     launch "$work/run" >"$work/out" 2>&1 &
     process=$!
-    pause 0.1 0.8
+    pause 0.05 "$(part 0.8)"
     from=$(milliseconds)
     kill -"$1" $process 2>/dev/null
     code=0
@@ -42,7 +42,7 @@ rm -rf "$work/run"
 launch "$work/run" >"$work/out" 2>&1 &
 process=$!
 for i in 1 2 3; do
-    pause 0.1 0.2
+    pause 0.05 "$(part 0.25)"
     kill -USR2 $process 2>/dev/null
 done
 wait $process || fail "USR2: exit code $?: $(cat "$work/out")"
