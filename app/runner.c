@@ -4,34 +4,50 @@
 
 #include "signals.h"
 
+#include "base/text.h"
+
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <time.h>
 #include <unistd.h>
 
 static const double TERMINAL_SECONDS = 0.2; // between progress lines
 static const double PIPE_SECONDS = 10;
 
-static void print_time(FILE *out, double seconds) {
+static void put_time(Text *line, double seconds) {
     if (!isfinite(seconds))
-        fputs("-", out);
+        text_put(line, "-");
     else if (seconds < 100)
-        fprintf(out, "%.0f s", seconds);
+        text_add(line, "%.0f s", seconds);
     else if (seconds < 6000)
-        fprintf(out, "%.0f min", seconds / 60);
+        text_add(line, "%.0f min", seconds / 60);
     else
-        fprintf(out, "%.1f h", seconds / 3600);
+        text_add(line, "%.1f h", seconds / 3600);
 }
 
-static void print_progress(const EnsembleProgress *progress) {
-    fprintf(stderr, "%3.0f %%  %s t = %.3g %s  %zu of %zu replicas done  %.3g particle steps/s  ",
-            100 * progress->fraction, progress->stage, progress->stage_time,
-            progress->stage_unit ? progress->stage_unit : "", progress->finished,
-            progress->replicas, progress->rate);
-    print_time(stderr, progress->seconds_left);
-    fputs(" left", stderr);
+static void put_progress(Text *line, const EnsembleProgress *progress) {
+    text_add(line, "%3.0f %%  ", 100 * progress->fraction);
+    put_time(line, progress->seconds_left);
+    text_add(line, " left  %zu of %zu done  %s", progress->finished, progress->replicas,
+             progress->stage);
+    if (progress->stage_unit)
+        text_add(line, " t = %.3g %s", progress->stage_time, progress->stage_unit);
+    text_add(line, "  %.3g particle steps/s", progress->rate);
+}
+
+// A line that a terminal breaks could not be written over by the next: what has no room is cut.
+static void print_progress(const EnsembleProgress *progress, bool terminal) {
+    struct winsize window = {.ws_col = 0};
+    const bool known = terminal && ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0;
+    const int room = !terminal ? INT_MAX : known && window.ws_col > 0 ? window.ws_col - 1 : 79;
+    Text line = {0};
+    put_progress(&line, progress);
+    fprintf(stderr, terminal ? "\r%.*s\033[K" : "%.*s\n", room, text_words(&line));
+    text_free(&line);
 }
 
 static void wait_a_little(void) {
@@ -54,9 +70,7 @@ static void watch(Session *session, bool quiet) {
         const EnsembleProgress progress = session_progress(session);
         if (quiet || progress.seconds - last < period) continue;
         last = progress.seconds;
-        if (terminal) fputs("\r\033[K", stderr);
-        print_progress(&progress);
-        if (!terminal) fputs("\n", stderr);
+        print_progress(&progress, terminal);
     }
     if (terminal && !quiet) fputs("\r\033[K", stderr);
 }
