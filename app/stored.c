@@ -5,7 +5,22 @@
 #include "base/text.h"
 #include "store/store.h"
 
+#include <unistd.h>
+
+static bool is_there(const char *directory, const char *name) {
+    Text path = {0};
+    text_add(&path, "%s/%s", directory, name);
+    const bool there = text_status(&path) == OK && access(text_words(&path), F_OK) == 0;
+    text_free(&path);
+    return there;
+}
+
 Status stored_results(Results **out, const char *directory) {
+    if (is_there(directory, "plan.yaml") && !is_there(directory, "results.h5"))
+        return status_fail(BAD_DATA,
+                           "the run in '%s' has not ended, and results come at its end; if it was "
+                           "stopped, the same 'perrin run' goes on with it",
+                           directory);
     Text path = {0};
     text_add(&path, "%s/results.h5", directory);
     Status status = text_status(&path);

@@ -174,7 +174,11 @@ static Status fail_unknown(const char *word) {
     const size_t nearest = nearest_word(word, words, count);
     if (nearest < count)
         return status_fail(BAD_USAGE, "'%s' is unknown; did you mean '%s'?", word, words[nearest]);
-    return status_fail(BAD_USAGE, "'%s' is unknown; 'perrin explain' lists what there is", word);
+    return status_fail(
+        BAD_USAGE,
+        "'%s' is unknown; 'perrin explain' lists what there is, 'perrin show DIR' says "
+        "what results are",
+        word);
 }
 
 Status config_explain(const char *word, FILE *out) {

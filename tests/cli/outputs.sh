@@ -105,6 +105,10 @@ resume() {
     say 65 "$1" run small.yaml -o "$2" --quiet --threads 1 --set protocol.rest.time=20000 \
         --set output.trajectory.every=1000
 }
+for command in show report; do
+    say 65 "perrin: error: the run in 'stopped' has not ended, and results come at its end; if it \
+was stopped, the same 'perrin run' goes on with it" $command stopped
+done
 cp -r stopped cut_off
 for slot in cut_off/checkpoint/*; do
     head -c 100 "$slot" > part && cp part "$slot"
