@@ -2,6 +2,8 @@
 // perrin check FILE.yaml: reads a run file, says what would be run, and runs nothing.
 #include "command.h"
 
+#include "analysis/equation_of_state.h"
+#include "base/constants.h"
 #include "base/memory.h"
 #include "config/config.h"
 #include "protocol/replica.h"
@@ -38,6 +40,24 @@ static void print_species(const System *system) {
     }
 }
 
+// Collisions per particle in a thermostat interval, as for equal discs or spheres of the mean
+// diameter: 2 dim (Z - 1)/(sqrt(pi) d) per time of flight, each counted for both partners.
+static double collisions_per_interval(const Plan *plan, const Clock *clock) {
+    const System *system = &plan->system;
+    const double excess = equation_of_state(system).compressibility_factor - 1;
+    const double rate = 2 * (double)system->dimension * excess / sqrt(PI);
+    return rate / system_diameter_moment(system, 1) * clock->flight_time *
+           (double)clock->ticks_per_step;
+}
+
+static void print_thermostat(const Plan *plan, const Clock *clock) {
+    static const double MANY = 1; // collisions, with which flight in an interval is hardly free
+    const double collisions = collisions_per_interval(plan, clock);
+    printf("          %-16s D0 = %.6g d sqrt(kT/m)\n", "", clock->tick / clock->flight_time);
+    printf("          %-16s about %.2g collisions per particle and interval%s\n", "", collisions,
+           collisions > MANY ? ": long-time diffusion is biased, take a shorter one" : "");
+}
+
 // One interval, seen by both clocks, gives D0.
 static void print_stage(const Plan *plan, size_t index) {
     const Stage *stage = &plan->stages[index];
@@ -46,8 +66,7 @@ static void print_stage(const Plan *plan, size_t index) {
     printf("stage     %-16s %s, %.6g %s in %.0f steps of %.6g\n", stage->name,
            stage->dynamics.kind->name, stage->time, clock.unit, steps,
            clock.tick * (double)clock.ticks_per_step);
-    if (clock.thermostatted)
-        printf("          %-16s D0 = %.6g d sqrt(kT/m)\n", "", clock.tick / clock.flight_time);
+    if (clock.thermostatted) print_thermostat(plan, &clock);
     for (size_t k = 0; k < stage->observation_count; k++) {
         printf("          %-16s %s\n", k == 0 ? "  observes" : "",
                stage->observations[k].kind->name);
