@@ -108,8 +108,8 @@ static Status put_short(Results *results, const Curve *curve, const char *specie
     const double time = curve->times[lag];
     for (size_t replica = 0; replica < results->replicas; replica++) {
         TRY(put(results, curve, "short_time_diffusion", species, "D0",
-                "Largest <r^2>/(2 dim t), reached about one thermostat interval; 1 for vanishing "
-                "interval.",
+                "Largest <r^2>/(2 dim t), reached about one thermostat interval; the free "
+                "coefficient for vanishing interval.",
                 replica, curve_of(curve, replica)[lag] / (2 * curve->dimensions * time)));
     }
     return OK;

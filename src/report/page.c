@@ -4,6 +4,7 @@
 
 #include "report/html.h"
 #include "report/notation.h"
+#include "report/select.h"
 
 #include <math.h>
 #include <string.h>
@@ -34,6 +35,8 @@ static const char STYLE[] =
     "pre{background:#f6f8fa;padding:.8rem;overflow:auto;font-size:.82rem;line-height:1.4}\n"
     "code{font-family:ui-monospace,Menlo,Consolas,monospace;font-size:.9em}\n"
     "footer{margin-top:2.5rem;color:#57606a;font-size:.87rem}\n"
+    "@media (min-width:1060px){figure:last-child:nth-child(odd){grid-column:1/-1;width:calc(50% - "
+    ".8rem);justify-self:center}}\n"
     "@media (max-width:800px){.figures{grid-template-columns:1fr}.a{display:none}"
     "table{font-size:.78rem}td,th{padding:.2rem .3rem}}\n"
     "@media print{html{font-size:9pt}body{max-width:none;padding:0;font-size:1rem}"
@@ -58,6 +61,17 @@ static void put_verdict(Text *page, const Results *results) {
              broken->limit);
 }
 
+// What was simulated and how, in a sentence each.
+static void put_system(Text *page, const Results *results) {
+    static const char *const SAID[] = {"system", "stages"};
+    for (size_t i = 0; i < sizeof SAID / sizeof *SAID; i++) {
+        const char *words = fact(results, SAID[i], NULL);
+        if (!words) continue;
+        html_unit(page, words);
+        text_put(page, ".<br>\n");
+    }
+}
+
 void page_begin(Text *page, const Results *results) {
     const char *title = fact(results, "title", "Brownian dynamics of hard colloids");
     text_put(page, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -66,8 +80,9 @@ void page_begin(Text *page, const Results *results) {
     html_words(page, title);
     text_add(page, "</title>\n<style>\n%s</style>\n</head>\n<body>\n<h1>", STYLE);
     html_words(page, title);
-    text_add(page, "</h1>\n<p class=\"under\">%zu replica%s, seed ", results->replicas,
-             results->replicas == 1 ? "" : "s");
+    text_put(page, "</h1>\n<p class=\"under\">");
+    put_system(page, results);
+    text_add(page, "%zu replica%s, seed ", results->replicas, results->replicas == 1 ? "" : "s");
     html_words(page, fact(results, "seed", "unknown"));
     text_put(page, ". Perrin ");
     html_words(page, fact(results, "version", ""));
@@ -137,15 +152,6 @@ static void put_reference(Text *page, const Results *results, const ResultScalar
     text_put(page, "</td>");
 }
 
-// Species share what is said about them: it is said once.
-static bool says_it_again(const Results *results, const ResultScalar *scalar) {
-    for (const ResultScalar *before = results->scalars; before < scalar; before++) {
-        const bool same_stage = strcmp(before->stage, scalar->stage) == 0;
-        if (same_stage && strcmp(before->about, scalar->about) == 0) return true;
-    }
-    return false;
-}
-
 static void put_scalar(Text *page, const Results *results, const ResultScalar *scalar) {
     const Estimate estimate = results_scalar_estimate(results, scalar);
     text_put(page, "<tr><td>");
@@ -157,7 +163,7 @@ static void put_scalar(Text *page, const Results *results, const ResultScalar *s
     text_put(page, "</td>");
     put_reference(page, results, scalar);
     text_add(page, "<td class=\"n\">%zu</td><td class=\"a\">", estimate.n);
-    if (!says_it_again(results, scalar)) html_unit(page, scalar->about);
+    if (!selects_said_before(results, scalar)) html_unit(page, scalar->about);
     text_put(page, "</td></tr>\n");
 }
 
@@ -240,7 +246,11 @@ void page_health(Text *page, const Results *results) {
 }
 
 static bool is_elsewhere(const ResultFact *fact) { // above, or below the table
-    return strcmp(fact->name, "plan") == 0 || strcmp(fact->name, "title") == 0;
+    static const char *const NAMES[] = {"plan", "title", "system", "stages"};
+    for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++) {
+        if (strcmp(fact->name, NAMES[i]) == 0) return true;
+    }
+    return false;
 }
 
 void page_provenance(Text *page, const Results *results) {

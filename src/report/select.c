@@ -100,6 +100,14 @@ static bool selects(const Selection *selection, const char *stage, const char *n
     return strcmp(full, selection->name) == 0;
 }
 
+bool selects_said_before(const Results *results, const ResultScalar *scalar) {
+    for (const ResultScalar *before = results->scalars; before < scalar; before++) {
+        const bool same_stage = strcmp(before->stage, scalar->stage) == 0;
+        if (same_stage && strcmp(before->about, scalar->about) == 0) return true;
+    }
+    return false;
+}
+
 bool selects_scalar(const Selection *selection, const ResultScalar *scalar) {
     return selects(selection, scalar->stage, scalar->quantity);
 }

@@ -17,5 +17,8 @@ typedef struct Selection {
 // `quantity` NULL selects everything; else a full name, or an end that only one full name has.
 Status select_quantity(Selection *out, const Results *results, const char *quantity);
 
+// Species share what is said about them: has a scalar before it in its stage said the same?
+bool selects_said_before(const Results *results, const ResultScalar *scalar);
+
 bool selects_scalar(const Selection *selection, const ResultScalar *scalar);
 bool selects_series(const Selection *selection, const ResultSeries *series);

@@ -46,7 +46,8 @@ static void table_ends(Text *text, Table *table) {
     text_free(&table->text);
 }
 
-static void scalar_row(Table *table, const Results *results, const ResultScalar *scalar) {
+static void scalar_row(Table *table, const Results *results, const ResultScalar *scalar,
+                       bool among_all) {
     const Estimate estimate = results_scalar_estimate(results, scalar);
     text_add(&table->text, "%s/%s", scalar->stage, scalar->quantity);
     cell_ends(table);
@@ -55,7 +56,7 @@ static void scalar_row(Table *table, const Results *results, const ResultScalar 
     cell(table, scalar->unit);
     text_add(&table->text, "%zu", estimate.n);
     cell_ends(table);
-    cell(table, scalar->about);
+    cell(table, among_all && selects_said_before(results, scalar) ? "" : scalar->about);
 }
 
 static void table_of_scalars(Text *text, const Results *results, const Selection *selection) {
@@ -65,7 +66,7 @@ static void table_of_scalars(Text *text, const Results *results, const Selection
     size_t rows = 0;
     for (size_t i = 0; i < results->scalar_count; i++) {
         if (!selects_scalar(selection, &results->scalars[i])) continue;
-        scalar_row(&table, results, &results->scalars[i]);
+        scalar_row(&table, results, &results->scalars[i], selection->all);
         rows++;
     }
     if (rows > 0)

@@ -142,8 +142,43 @@ static Status put_when_and_where(Results *results, double seconds) {
     return results_put_fact(results, "wall_seconds", text);
 }
 
+// "1000 particles in 2 dimensions, packing fraction 0.7: 500 small of diameter 1, 500 big of ..."
+static Status put_system(Results *results, const System *system) {
+    size_t counts[SPECIES_MOST];
+    system_counts(system, counts);
+    Text words = {0};
+    text_add(&words, "%lld particles in %d dimensions, packing fraction %.6g",
+             (long long)system->particles, (int)system->dimension, system_packing_fraction(system));
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Species *species = &system->species[s];
+        text_add(&words, "%s%zu %s of diameter %.6g", s ? ", " : ": ", counts[s], species->name,
+                 species->diameter);
+        if (species->spread != SPREAD_NONE)
+            text_add(&words, " ± %.3g %%", 100 * species->spread_width);
+        if (species->mass != 1) text_add(&words, " and mass %.6g", species->mass);
+    }
+    const Status status = results_put_fact(results, "system", text_words(&words));
+    text_free(&words);
+    return status;
+}
+
+// "settle: newtonian, 200 d sqrt(m/kT); quiescent: event-driven, 10 d^2/D0"
+static Status put_stages(Results *results, const Plan *plan) {
+    Text words = {0};
+    for (size_t s = 0; s < plan->stage_count; s++) {
+        const Stage *stage = &plan->stages[s];
+        text_add(&words, "%s%s: %s, %.6g %s", s ? "; " : "", stage->name,
+                 stage->dynamics.kind->name, stage->time, stage->dynamics.kind->time_unit);
+    }
+    const Status status = results_put_fact(results, "stages", text_words(&words));
+    text_free(&words);
+    return status;
+}
+
 static Status put_provenance(const Session *session, Results *results, double seconds) {
     TRY(results_put_fact(results, "title", session->plan->title));
+    TRY(put_system(results, &session->plan->system));
+    TRY(put_stages(results, session->plan));
     TRY(results_put_fact(results, "version", version_number()));
     TRY(results_put_fact(results, "commit", version_commit()));
     TRY(results_put_fact(results, "compiler", version_compiler()));
