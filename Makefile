@@ -58,7 +58,7 @@ fuzz:
 	@tools/setup.sh build test
 	@CC=clang-14 $(CONFIGURE) -B build-fuzz -DCMAKE_BUILD_TYPE=Debug -DPERRIN_FUZZ=ON \
 	    -DPERRIN_SANITIZE=address,undefined >/dev/null
-	@$(MAKE) -s -C build-fuzz $(PARALLEL)
+	@$(MAKE) -s -C build-fuzz $(PARALLEL) fuzz-targets
 	@tools/fuzz.sh build-fuzz $(FUZZ_SECONDS)
 
 install: build
