@@ -33,7 +33,6 @@ static Status allocate(Engine *engine) {
         TRY(NEW_ARRAY(engine->column[a], slots + BLOCK));
         TRY(NEW_ARRAY(engine->snapshot.image[a], count));
     }
-    TRY(NEW_ARRAY(engine->snapshot.rows, slots * engine->row));
     for (engine->buckets = 64; engine->buckets < count / 4;) engine->buckets *= 2;
     engine->buckets_per_time = engine->buckets / engine->settings.window;
     TRY(NEW_ARRAY(engine->bucket, engine->buckets));
@@ -125,7 +124,6 @@ void engine_free(Engine *engine) {
         memory_free(engine->column[a]);
         memory_free(engine->snapshot.image[a]);
     }
-    memory_free(engine->snapshot.rows);
     memory_free(engine->bucket);
     memory_free(engine->events);
     list_free(engine);
@@ -153,7 +151,7 @@ static void redraw(Engine *engine) {
 
 static void snapshot_take(Engine *engine) {
     Snapshot *snapshot = &engine->snapshot;
-    memcpy(snapshot->rows, engine->rows, engine->count * engine->row * sizeof(double));
+    memcpy(engine->spare_rows, engine->rows, engine->count * engine->row * sizeof(double));
     for (int a = 0; a < engine->dimension; a++) {
         memcpy(snapshot->image[a], engine->state->image[a], engine->count * sizeof(int32_t));
     }
@@ -171,7 +169,7 @@ static void snapshot_restore(Engine *engine) {
     const Snapshot *snapshot = &engine->snapshot;
     const Tally *tally = &engine->tally;
     const uint64_t rebuilds = tally->rebuilds, replays = tally->replays, stale = tally->stale;
-    memcpy(engine->rows, snapshot->rows, engine->count * engine->row * sizeof(double));
+    memcpy(engine->rows, engine->spare_rows, engine->count * engine->row * sizeof(double));
     for (int a = 0; a < engine->dimension; a++) {
         memcpy(engine->state->image[a], snapshot->image[a], engine->count * sizeof(int32_t));
     }

@@ -58,7 +58,6 @@ typedef struct NeighbourList {
 
 // What a window must not pass over: the state at the last moment known to be right.
 typedef struct Snapshot {
-    double *rows;
     int32_t *image[3];
     int64_t step, window, left;
     double scale;
@@ -88,7 +87,7 @@ struct Engine {
     int64_t window, left; // windows done in this step; still to do in this call
 
     double *rows;       // [count + 1][row]
-    double *spare_rows; // the same, for reordering
+    double *spare_rows; // the same: those of the snapshot, and where a new order is made
     uint32_t *id;       // [count] of each slot
     uint32_t *spare_id;
     double *radius;     // [count]

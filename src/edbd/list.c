@@ -113,28 +113,36 @@ static void place_nobody(Engine *engine) {
     for (size_t k = 0; k < engine->row; k++) nobody[k] = k < engine->row / 2 ? FAR_AWAY : 0;
 }
 
-// Room for more elements of an array of which the first `used` are kept.
-static Status grow(void **array, size_t size, size_t used, size_t capacity) {
-    void *bigger = memory_new(capacity, size);
-    if (!bigger) return NO_MEMORY;
-    if (used) memcpy(bigger, *array, used * size);
-    memory_free(*array);
-    *array = bigger;
+// Room for more numbers, of which the first `used` are kept.
+static Status grow_numbers(uint32_t **numbers, size_t used, size_t capacity) {
+    uint32_t *more = NULL;
+    TRY(NEW_ARRAY(more, capacity));
+    if (used) memcpy(more, *numbers, used * sizeof *more);
+    memory_free(*numbers);
+    *numbers = more;
     return OK;
 }
-#define GROW(array, used, capacity) grow((void **)&(array), sizeof *(array), used, capacity)
+
+static Status grow_values(double **values, size_t used, size_t capacity) {
+    double *more = NULL;
+    TRY(NEW_ARRAY(more, capacity));
+    if (used) memcpy(more, *values, used * sizeof *more);
+    memory_free(*values);
+    *values = more;
+    return OK;
+}
 
 static Status grow_pairs(NeighbourList *list, size_t pairs) {
     if (pairs <= list->pair_capacity) return OK;
-    const size_t capacity = pairs + pairs / 4 + 4 * BLOCK;
-    TRY(GROW(list->first, list->pairs, capacity));
-    TRY(GROW(list->second, list->pairs, capacity));
-    TRY(GROW(list->pair_contact2, list->pairs, capacity));
-    TRY(GROW(list->hits, 0, capacity));
+    const size_t capacity = pairs + pairs / 8 + 4 * BLOCK;
+    TRY(grow_numbers(&list->first, list->pairs, capacity));
+    TRY(grow_numbers(&list->second, list->pairs, capacity));
+    TRY(grow_values(&list->pair_contact2, list->pairs, capacity));
+    TRY(grow_numbers(&list->hits, 0, capacity));
     if (list->pruned) {
-        TRY(GROW(list->pruned_first, 0, capacity));
-        TRY(GROW(list->pruned_second, 0, capacity));
-        TRY(GROW(list->pruned_contact2, 0, capacity));
+        TRY(grow_numbers(&list->pruned_first, 0, capacity));
+        TRY(grow_numbers(&list->pruned_second, 0, capacity));
+        TRY(grow_values(&list->pruned_contact2, 0, capacity));
     }
     list->pair_capacity = capacity;
     return OK;
@@ -142,9 +150,9 @@ static Status grow_pairs(NeighbourList *list, size_t pairs) {
 
 static Status grow_neighbours(NeighbourList *list, size_t neighbours) {
     if (neighbours <= list->neighbour_capacity) return OK;
-    const size_t capacity = neighbours + neighbours / 4 + 4 * BLOCK;
-    TRY(GROW(list->neighbour, 0, capacity));
-    TRY(GROW(list->contact2, 0, capacity));
+    const size_t capacity = neighbours + neighbours / 8 + 4 * BLOCK;
+    TRY(grow_numbers(&list->neighbour, 0, capacity));
+    TRY(grow_values(&list->contact2, 0, capacity));
     list->neighbour_capacity = capacity;
     return OK;
 }
