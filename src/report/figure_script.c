@@ -91,7 +91,9 @@ static void put_head(Text *script, const Figure *figure) {
         figure->name, figure->name, figure->name, has_ratio(figure) ? 720 : 480, figure->name,
         figure->name, figure->name);
     put_looks(script, figure);
+    static const size_t KEY_MOST = 6; // curves; the names of more would lie on them
     const char *key = figure->kind && figure->kind->key ? figure->kind->key : "above";
+    if (figure->curve_count > KEY_MOST) key = "outside right top";
     text_add(script, "set key %s noenhanced samplen 2 spacing 1.2\n", key);
 }
 
