@@ -3,7 +3,6 @@
 #include "command.h"
 
 #include "analysis/equation_of_state.h"
-#include "base/constants.h"
 #include "base/memory.h"
 #include "config/config.h"
 #include "protocol/replica.h"
@@ -40,19 +39,10 @@ static void print_species(const System *system) {
     }
 }
 
-// Collisions per particle in a thermostat interval, as for equal discs or spheres of the mean
-// diameter: 2 dim (Z - 1)/(sqrt(pi) d) per time of flight, each counted for both partners.
-static double collisions_per_interval(const Plan *plan, const Clock *clock) {
-    const System *system = &plan->system;
-    const double excess = equation_of_state(system).compressibility_factor - 1;
-    const double rate = 2 * (double)system->dimension * excess / sqrt(PI);
-    return rate / system_diameter_moment(system, 1) * clock->flight_time *
-           (double)clock->ticks_per_step;
-}
-
 static void print_thermostat(const Plan *plan, const Clock *clock) {
     static const double MANY = 1; // collisions, with which flight in an interval is hardly free
-    const double collisions = collisions_per_interval(plan, clock);
+    const double interval = clock->flight_time * (double)clock->ticks_per_step;
+    const double collisions = equation_collision_rate(&plan->system) * interval;
     printf("          %-16s D0 = %.6g d sqrt(kT/m)\n", "", clock->tick / clock->flight_time);
     printf("          %-16s about %.2g collisions per particle and interval%s\n", "", collisions,
            collisions > MANY ? ": long-time diffusion is biased, take a shorter one" : "");
@@ -67,6 +57,7 @@ static void print_stage(const Plan *plan, size_t index) {
            stage->dynamics.kind->name, stage->time, clock.unit, steps,
            clock.tick * (double)clock.ticks_per_step);
     if (clock.thermostatted) print_thermostat(plan, &clock);
+    if (stage->observation_count == 0) printf("          %-16s nothing\n", "  observes");
     for (size_t k = 0; k < stage->observation_count; k++) {
         printf("          %-16s %s\n", k == 0 ? "  observes" : "",
                stage->observations[k].kind->name);

@@ -2,6 +2,7 @@
 // Equations of state of hard discs and spheres.
 #include "analysis/equation_of_state.h"
 
+#include "base/constants.h"
 #include "numerics/pade.h"
 
 #include <math.h>
@@ -98,4 +99,10 @@ EquationOfState equation_of_state(const System *system) {
                                  "Carnahan and Starling, corrected by Kolafa"};
     return (EquationOfState){equation_sphere_mixture(eta, m),
                              "Boublik; Mansoori, Carnahan, Starling, Leland"};
+}
+
+double equation_collision_rate(const System *system) {
+    // Virial theorem: partners meet with a mean normal velocity of sqrt(pi kT/m).
+    const double excess = equation_of_state(system).compressibility_factor - 1;
+    return 2 * (double)system->dimension * excess / (sqrt(PI) * system_diameter_moment(system, 1));
 }

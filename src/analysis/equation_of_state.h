@@ -37,3 +37,7 @@ typedef struct EquationOfState {
 } EquationOfState;
 
 EquationOfState equation_of_state(const System *system);
+
+// Collisions per particle and time of flight that this pressure means, each counted for both
+// partners, in sqrt(kT/m)/d; of a mixture as if all particles had the mean diameter and mass 1.
+double equation_collision_rate(const System *system);

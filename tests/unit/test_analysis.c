@@ -2,6 +2,7 @@
 // Derived numbers from series whose answer is known, and equations of state against their values.
 #include "analysis/analysis.h"
 #include "analysis/equation_of_state.h"
+#include "base/constants.h"
 #include "observe.h"
 
 enum { REPLICAS = 16, LAGS = 41, BINS = 200 };
@@ -54,6 +55,15 @@ START_TEST(dilute_limit_is_the_second_virial_coefficient) {
     const double virial = equation_second_virial(&system) - 1;
     ck_assert_double_eq_tol((equation_of_state(&system).compressibility_factor - 1) / virial, 1,
                             1e-3);
+}
+END_TEST
+
+// Kinetic theory: 2 sqrt(pi) rho d of discs, 4 sqrt(pi) rho d^2 of spheres, times sqrt(kT/m).
+// _i: dimension - 2.
+START_TEST(a_dilute_gas_collides_as_kinetic_theory_says) {
+    const System system = system_of(2 + _i, 1000, 1e-4, 1);
+    const double rate = (_i == 0 ? 2 : 4) * sqrt(PI) * system_number_density(&system);
+    ck_assert_double_eq_tol(equation_collision_rate(&system) / rate, 1, 1e-3);
 }
 END_TEST
 
@@ -240,6 +250,7 @@ int main(void) {
     tcase_add_test(c, binary_discs_have_their_known_values);
     tcase_add_test(c, mixtures_of_equals_are_pure);
     tcase_add_loop_test(c, dilute_limit_is_the_second_virial_coefficient, 0, 4);
+    tcase_add_loop_test(c, a_dilute_gas_collides_as_kinetic_theory_says, 0, 2);
     tcase_add_test(c, long_time_diffusion_is_the_slope_beyond_the_cage);
     tcase_add_test(c, where_the_slope_still_falls_the_last_stretch_is_taken);
     tcase_add_test(c, short_time_diffusion_is_where_flight_ends);
