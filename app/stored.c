@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "store/store.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 static bool is_there(const char *directory, const char *name) {
@@ -15,7 +16,13 @@ static bool is_there(const char *directory, const char *name) {
     return there;
 }
 
+static bool is_file(const char *path) {
+    struct stat about;
+    return stat(path, &about) == 0 && S_ISREG(about.st_mode);
+}
+
 Status stored_results(Results **out, const char *directory) {
+    if (is_file(directory)) return store_read_results(out, directory);
     if (is_there(directory, "plan.yaml") && !is_there(directory, "results.h5"))
         return status_fail(BAD_DATA,
                            "the run in '%s' has not ended, and results come at its end; if it was "

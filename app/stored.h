@@ -4,4 +4,5 @@
 
 #include "results/results.h"
 
-Status stored_results(Results **out, const char *directory); // of DIRECTORY/results.h5; yours
+// From DIRECTORY/results.h5, or from that file itself; yours.
+Status stored_results(Results **out, const char *directory);

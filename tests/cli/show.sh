@@ -1,0 +1,94 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What `show` and `report` make of a run, as a reader sees it: the same numbers in the table, as
+# CSV and as JSON; a page that needs nothing else. show.sh PERRIN
+set -u
+LC_ALL=C
+export LC_ALL
+perrin=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+scratch=$(mktemp -d) || exit 1
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch" || exit 1
+
+cat > small.yaml << 'END'
+title: 5 < 7 & "so on"
+system:
+  dimension: 2
+  particles: 40
+  packing_fraction: 0.3
+  species: {light: {shape: disc, fraction: 0.5}, heavy: {shape: disc, mass: 4, fraction: 0.5}}
+dynamics: {method: event-driven, thermostat_interval: 0.05}
+protocol:
+  - {stage: rest, time: 0.2, observe: [mean_squared_displacement, pressure, snapshot]}
+ensemble: {replicas: 3}
+END
+"$perrin" run small.yaml --quiet --threads 1 || exit 1
+
+failed=0
+count=0
+# expect SENTENCE COMMAND...: the command succeeds
+expect() {
+    sentence=$1
+    shift
+    count=$((count + 1))
+    "$@" > out 2> err && return
+    failed=$((failed + 1))
+    printf 'FAILED: %s\n' "$sentence"
+    head -5 out err
+}
+lacks() { ! grep -q "$@"; }
+
+# Numbers.
+"$perrin" show small > table
+"$perrin" show small --csv > table.csv
+expect "every quantity of the table stands in the CSV, in the same order" \
+    sh -c "sed -n '2,/^\$/p' table | awk 'NF {print \$1}' > a &&
+           sed 1d table.csv | cut -d, -f1 > b && test -s a && cmp a b"
+expect "what is said of a quantity is said once in the table of all" \
+    test "$(grep -c 'Largest <r^2>' table)" = 1
+expect "asked alone, a quantity says what it is" \
+    sh -c "'$perrin' show small short_time_diffusion_heavy | grep 'Largest <r^2>'"
+expect "a part of a name finds its quantity" \
+    sh -c "'$perrin' show small quanity 2>&1 | grep 'lists them' &&
+           '$perrin' show small displ 2>&1 | grep 'did you mean rest/.*displacement'"
+expect "the points of a series are as many as its axes say" \
+    sh -c "'$perrin' show small rest/snapshot --csv | sed 1d | wc -l | grep -x ' *200'" # 40 particles, 5 columns
+expect "results.h5 may be named itself" \
+    sh -c "'$perrin' show small/results.h5 --csv | cmp - table.csv"
+expect "free heavy particles diffuse at most a quarter as fast" \
+    sh -c "awk -F, '/short_time_diffusion_heavy/ && \$2 > 0 && \$2 < 0.25 {good = 1}
+           END {exit !good}' table.csv"
+
+# JSON, where something can read it.
+if command -v python3 > /dev/null; then
+    "$perrin" show small --json > all.json
+    expect "the JSON holds the numbers of the CSV and rectangular series" python3 -c '
+import csv, json
+results = json.load(open("all.json"))
+rows = list(csv.DictReader(open("table.csv")))
+assert [row["quantity"] for row in rows] == list(results["quantities"])
+for row in rows:
+    value = results["quantities"][row["quantity"]]["value"]
+    assert value is None or value == float(row["value"]), row
+def shape(nest):
+    return [len(nest)] + shape(nest[0]) if isinstance(nest, list) else []
+for series in results["series"].values():
+    lengths = [len(series[axis]) for axis in series["axes"]]
+    assert shape(series["mean"]) == shape(series["error"]) == lengths, lengths
+assert results["run"]["title"] == "5 < 7 & \"so on\""
+'
+fi
+
+# The page.
+page=small/report.html
+expect "the page has the title, escaped" grep -q '<h1>5 &lt; 7 &amp; &quot;so on&quot;</h1>' $page
+expect "the page says what was simulated" \
+    grep -q '40 particles in 2 dimensions, packing fraction 0.3: 20 light of diameter 1, 20 heavy' $page
+expect "the page says how" grep -q 'rest: event-driven, 0.2 d²/D₀' $page
+expect "the page loads nothing" lacks -E '(src|href)="?(http|//|file)|@import|<script|<link' $page
+expect "the page has a figure or says why not" grep -q '<svg' $page
+cp $page before.html
+expect "written again, the page is the same" sh -c "'$perrin' report small && cmp before.html $page"
+
+printf 'show: %d tests, %d failed\n' "$count" "$failed"
+test "$failed" = 0
