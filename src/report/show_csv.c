@@ -78,12 +78,12 @@ static void one_series(Text *text, const Results *results, const ResultSeries *s
     for (size_t i = 0; i < series->size; i++) series_line(text, results, series, i);
 }
 
+// One table, for a program reads one: where a number and a series share a name, the series.
 void show_csv(Text *text, const Results *results, const Selection *selection) {
-    scalars(text, results, selection);
-    if (selection->all) return; // series have other columns: one at a time
-    for (size_t i = 0; i < results->series_count; i++) {
-        if (selects_series(selection, &results->series[i])) {
-            one_series(text, results, &results->series[i]);
-        }
+    for (size_t i = 0; !selection->all && i < results->series_count; i++) {
+        if (!selects_series(selection, &results->series[i])) continue;
+        one_series(text, results, &results->series[i]);
+        return;
     }
+    scalars(text, results, selection);
 }

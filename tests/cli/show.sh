@@ -53,6 +53,8 @@ expect "a part of a name finds its quantity" \
            '$perrin' show small displ 2>&1 | grep 'did you mean rest/.*displacement'"
 expect "the points of a series are as many as its axes say" \
     sh -c "'$perrin' show small rest/snapshot --csv | sed 1d | wc -l | grep -x ' *200'" # 40 particles, 5 columns
+expect "CSV is one table, where a number has the name of a series as well" \
+    sh -c "'$perrin' show small rest/pressure --csv | awk -F, 'NF != 5 {exit 1}'"
 expect "results.h5 may be named itself" \
     sh -c "'$perrin' show small/results.h5 --csv | cmp - table.csv"
 expect "free heavy particles diffuse at most a quarter as fast" \
