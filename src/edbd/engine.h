@@ -10,7 +10,7 @@
 
 enum {
     ROW_2D = 4, // x y vx vy
-    ROW_3D = 8, // x y z R vx vy vz m
+    ROW_3D = 8, // x y z 0 vx vy vz 0
     ANCHOR = 4, // x y z 0
     BLOCK = 8,  // lists are padded to whole blocks
 };

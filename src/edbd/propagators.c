@@ -113,12 +113,17 @@ static Status newtonian_check(const Settings *settings, const System *system) {
     return engine_check(system, window);
 }
 
-// Rough, from measurements on one core: a base for draw and list, and a share of collisions.
+// Rough, from measurements on one core: a base for draw, list and flight, and a share for each
+// collision, of which there are as many as the equation of state says.
 static double engine_seconds(double window, const System *system) {
-    const double base = system->dimension == 2 ? 5e-9 : 9e-9;
-    const double phi = system_packing_fraction(system);
-    const double pressure = 1 / ((1 - phi) * (1 - phi)); // Z, roughly
-    return base + 100e-9 * window * pressure;
+    const double phi = fmin(system_packing_fraction(system), 0.9), void_part = 1 - phi;
+    if (system->dimension == 2) {
+        const double pressure = (1 + phi * phi / 8) / (void_part * void_part); // Henderson
+        return 6e-9 + 85e-9 * window * (pressure - 1);
+    }
+    const double pressure = // Carnahan and Starling
+        (1 + phi + phi * phi - phi * phi * phi) / (void_part * void_part * void_part);
+    return 11e-9 + 280e-9 * window * (pressure - 1);
 }
 
 static double event_driven_seconds(const Settings *settings, const System *system) {
@@ -182,7 +187,7 @@ static void set_energy(State *state) {
     }
 }
 
-static Status draw_velocities(State *state, RngKey key) {
+static void draw_velocities(State *state, RngKey key) {
     for (size_t i = 0; i < state->count; i++) {
         Rng rng = rng_open(key, STREAM_VELOCITY, (uint64_t)state->step, i);
         for (int a = 0; a < state->box.dimension; a++) {
@@ -190,13 +195,12 @@ static Status draw_velocities(State *state, RngKey key) {
         }
     }
     set_energy(state);
-    return OK;
 }
 
 static Status newtonian_create(Propagator **out, const Settings *settings, State *state,
                                RngKey key) {
     const EngineSettings engine = {.window = newtonian(settings)->window, .windows_per_step = 1};
-    if (at_rest(state)) TRY(draw_velocities(state, key));
+    if (at_rest(state)) draw_velocities(state, key);
     return propagator_create(out, &propagator_newtonian, &engine, state, key);
 }
 

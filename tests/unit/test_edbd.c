@@ -2,6 +2,8 @@
 // The event-driven engine: exact collisions, conservation, the same bits however it is run, and
 // what it refuses. Its collisions in sequence are held against a slow twin in physics/test_twins.c,
 // its pressure and diffusion against theory in physics/.
+#include "reference_engine.h"
+
 #include "edbd/edbd.h"
 #include "base/cpu.h"
 #include "packing/packing.h"
@@ -285,6 +287,50 @@ START_TEST(dense_states_never_overlap) {
 END_TEST
 
 // Per interval and direction a free particle moves by Delta times a normal number of variance kT/m.
+// A few particles so fast that they outrun the neighbour list: what was run with it is run again.
+// Every window must have the collisions of the slow twin that began it from the same state.
+START_TEST(what_outruns_the_list_is_run_again_without_a_trace) {
+    State *state = packed(2 + _i, 125, _i ? 0.4 : 0.7, 2);
+    const Settings settings = settings_of(&propagator_newtonian.options);
+    Tally fast = {0}, slow = {0};
+    run(&propagator_newtonian, &settings, state, 1, &fast); // draws the velocities
+    for (size_t i = 0; i < 125; i += 50) state->velocity[0][i] = 22;
+    State *twin = copy_of(state), *whole = copy_of(state);
+    const double energy = kinetic_energy(state);
+    Propagator *propagator = propagator_of(&propagator_newtonian, &settings, state);
+    Reference *reference = NULL;
+    ck_assert_int_eq(reference_create(&reference, twin, KEY, 0.01, false, false), OK);
+    fast = (Tally){0};
+    for (int window = 0; window < 400; window++) {
+        ck_assert_msg(propagator_newtonian.advance(propagator, 1, &fast) == OK, "%s",
+                      status_sentence());
+        reference_advance(reference, 1, &slow);
+        ck_assert_uint_eq(fast.collisions, slow.collisions);
+        for (size_t i = 0; i < 125; i++) {
+            for (int a = 0; a < 2 + _i; a++) {
+                ck_assert_double_eq_tol(state_unfolded(state, a, i), state_unfolded(twin, a, i),
+                                        1e-9);
+                twin->position[a][i] = state->position[a][i];
+                twin->velocity[a][i] = state->velocity[a][i];
+                twin->image[a][i] = state->image[a][i];
+            }
+        }
+    }
+    ck_assert_uint_gt(fast.replays, 0);
+    Tally once = {0};
+    run(&propagator_newtonian, &settings, whole, 400, &once); // several windows are run again
+    ck_assert_uint_gt(once.replays, 0);
+    check_same_bits(whole, state);
+    ck_assert_mem_eq(once.exchange, fast.exchange, sizeof once.exchange);
+    state_free(whole);
+    ck_assert_double_eq_tol(kinetic_energy(state) / energy, 1, 1e-12);
+    reference_free(reference);
+    propagator_newtonian.free(propagator);
+    state_free(twin);
+    state_free(state);
+}
+END_TEST
+
 START_TEST(free_particles_diffuse_with_half_the_interval_over_the_mass) {
     System system = system_of(2, 2000, 0, 2);
     system.number_density = 0.5;
@@ -373,6 +419,7 @@ int main(void) {
     tcase_add_test(exact, two_discs_meet_when_and_as_they_must);
     tcase_add_loop_test(exact, newtonian_motion_conserves_energy_and_momentum, 0, 2);
     tcase_add_test(exact, four_discs_that_meet_at_once_keep_energy_and_momentum);
+    tcase_add_loop_test(exact, what_outruns_the_list_is_run_again_without_a_trace, 0, 2);
     tcase_add_loop_test(exact, tiny_overlaps_never_deepen_and_vanish, 0, 4);
     tcase_add_loop_test(exact, dense_states_never_overlap, 0, 2);
     tcase_add_test(exact, free_particles_diffuse_with_half_the_interval_over_the_mass);
