@@ -12,7 +12,7 @@
 #include <math.h>
 #include <time.h>
 
-static const double WINDOW = 0.01;                  // in d sqrt(m/kT), for the reference mass
+static const double WINDOW = 0.01;                  // in d sqrt(m/kT)
 static const int64_t WINDOWS_PER_DRAW = 10;         // of the velocities
 static const int64_t WINDOWS_PER_LOOK = 100;        // at `stop`
 static const double MELT_PACKING[2] = {0.40, 0.30}; // 2D, 3D: fluids that mix fast
@@ -102,12 +102,6 @@ static double largest_diameter(const State *state) {
     return largest;
 }
 
-static double lightest_mass(const State *state) {
-    double lightest = state->mass[0];
-    for (size_t i = 0; i < state->count; i++) lightest = fmin(lightest, state->mass[i]);
-    return lightest;
-}
-
 static double starting_scale(const State *state, const Lattice *lattice) {
     const int flat = state->box.dimension == 2;
     const double ratio = MELT_PACKING[!flat] / state_packing_fraction(state);
@@ -126,36 +120,48 @@ static Status run(Engine *engine, int64_t windows, const atomic_int *stop, Tally
     return OK;
 }
 
-static Status melt_and_grow(State *state, Engine *engine, double window, double scale,
-                            const atomic_int *stop, Tally *tally) {
+static Status melt_and_grow(State *state, Engine *engine, double scale, const atomic_int *stop,
+                            Tally *tally) {
     double edges = 0;
     for (int a = 0; a < state->box.dimension; a++) edges = fmax(edges, state->box.edge[a]);
     const double melt = fmin(MELT_TIME + MELT_TIME_PER_EDGE * edges, MELT_TIME_MOST);
     engine_grow(engine, scale, 0);
-    TRY(run(engine, (int64_t)ceil(melt / window), stop, tally));
+    TRY(run(engine, (int64_t)ceil(melt / WINDOW), stop, tally));
     if (scale == 1) return OK;
     const double growth = 1 + MARGIN - scale;
-    const int64_t windows = (int64_t)ceil(growth / (GROWTH_RATE * window));
-    engine_grow(engine, scale, growth / ((double)windows * window));
+    const int64_t windows = (int64_t)ceil(growth / (GROWTH_RATE * WINDOW));
+    engine_grow(engine, scale, growth / ((double)windows * WINDOW));
     return run(engine, windows, stop, tally);
 }
 
 static Status swell(State *state, RngKey key, double scale, const atomic_int *stop, Tally *tally) {
-    const double window = WINDOW * sqrt(fmin(1, lightest_mass(state)));
-    const EngineSettings settings = {.window = window,
+    const EngineSettings settings = {.window = WINDOW,
                                      .windows_per_step = WINDOWS_PER_DRAW,
                                      .redraw = 1,
                                      .stream = STREAM_SWELLING};
     Engine *engine = NULL;
     TRY(engine_create(&engine, &settings, state, key));
-    const Status status = melt_and_grow(state, engine, window, scale, stop, tally);
+    const Status status = melt_and_grow(state, engine, scale, stop, tally);
     engine_free(engine);
     return status;
+}
+
+// Where particles are in equilibrium does not depend on their masses. All are packed with mass 1,
+// so that heavy ones melt and make room as fast as light ones.
+static void forget_masses(State *state) {
+    for (size_t i = 0; i < state->count; i++) state->mass[i] = 1;
+}
+
+static void restore_masses(State *state) {
+    for (size_t i = 0; i < state->count; i++) {
+        state->mass[i] = state->system.species[state->species_of[i]].mass;
+    }
 }
 
 // At rest, in the box it started in, at step 0: the propagator draws the velocities.
 static Status settle(State *state) {
     state->step = 0;
+    restore_masses(state);
     for (int a = 0; a < state->box.dimension; a++) {
         for (size_t i = 0; i < state->count; i++) {
             state->velocity[a][i] = 0;
@@ -173,6 +179,7 @@ static Status pack(State *state, RngKey key, const atomic_int *stop, PackingRepo
     draw_diameters(state, key);
     const Lattice lattice = lattice_best(&state->box, state->count);
     TRY(place(state, key, &lattice));
+    forget_masses(state);
     Tally tally = {0};
     report->lattice_scale = starting_scale(state, &lattice);
     TRY(swell(state, key, report->lattice_scale, stop, &tally));

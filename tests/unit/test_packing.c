@@ -94,6 +94,22 @@ END_TEST
 
 // |rho(q)|^2/N at a reciprocal vector of the lattice the packing began on: N in the crystal, of
 // order S(q) < 3 in the fluid; an exponential of mean S exceeds 15 S with probability 3e-7.
+START_TEST(masses_do_not_matter) {
+    System system = system_of(2, 100, 0.6, 2);
+    State *equal = packed(&system, KEY, NULL);
+    system.species[0].mass = 1e4;
+    system.species[1].mass = 0.01;
+    State *unequal = packed(&system, KEY, NULL);
+    for (size_t i = 0; i < equal->count; i++) {
+        ck_assert_double_eq(equal->position[0][i], unequal->position[0][i]);
+        ck_assert_double_eq(equal->position[1][i], unequal->position[1][i]);
+        ck_assert_double_eq(unequal->mass[i], unequal->species_of[i] ? 0.01 : 1e4);
+    }
+    state_free(equal);
+    state_free(unequal);
+}
+END_TEST
+
 START_TEST(the_lattice_is_forgotten) {
     const System system = system_of(2, 400, 0.5, 1);
     State *state = packed(&system, KEY, NULL);
@@ -165,6 +181,7 @@ int main(void) {
     tcase_add_loop_test(packing, dense_mixtures_and_polydisperse_spheres_are_reached, 0, 5);
     tcase_add_loop_test(packing, sizes_have_the_spread_that_was_asked_for, 0, 2);
     tcase_add_test(packing, equal_keys_give_equal_packings_and_others_do_not);
+    tcase_add_test(packing, masses_do_not_matter);
     tcase_add_test(packing, the_lattice_is_forgotten);
     tcase_add_loop_test(packing, a_lattice_has_room_for_all_and_its_nearest_distance, 0, 5);
     tcase_add_test(packing, impossible_densities_are_refused);
