@@ -66,6 +66,8 @@ typedef struct StructureFactor {
     DensityModes *modes;
 } StructureFactor;
 
+static const double WALK_MOST = 1e9; // some ten seconds of walking for each replica
+
 // A walk over the half lattice within `last`, in the order that DensityModes wants.
 typedef struct Walk {
     Box box;
@@ -79,6 +81,13 @@ static Walk walk_over(const Box *box, double last) {
         walk.most[a] = (int32_t)floor(last * box->edge[a] / (2 * PI));
     }
     return walk;
+}
+
+// Steps of the walk, before they are known to be countable.
+static double walk_length(const Box *box, double last) {
+    double length = 0.5;
+    for (int a = 0; a < box->dimension; a++) length *= 2 * last * box->edge[a] / (2 * PI) + 1;
+    return length;
 }
 
 static LatticeVector walk_first(const Walk *walk) {
@@ -222,6 +231,12 @@ static Status check(const Settings *settings_, const System *system, const Clock
     const Box box = system_box(system);
     double longest = box.edge[0];
     for (int a = 1; a < box.dimension; a++) longest = fmax(longest, box.edge[a]);
+    if (!(walk_length(&box, settings->last) <= WALK_MOST)) {
+        return status_fail(BAD_DATA,
+                           "structure_factor: wave_numbers.last = %g takes in %.3g wave vectors of "
+                           "the box, more than %g; make it smaller",
+                           settings->last, walk_length(&box, settings->last), WALK_MOST);
+    }
     if (settings->last > 2 * PI / longest) return OK;
     return status_fail(BAD_DATA,
                        "structure_factor: wave_numbers.last = %g is not above 2 pi/L = %g of the "
