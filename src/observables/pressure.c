@@ -70,10 +70,9 @@ static int64_t next(const Observer *observer, int64_t after) {
 }
 
 static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
-    (void)tick;
     Pressure *pressure = (Pressure *)observer;
-    ASSERT(pressure->done < pressure->blocks);
-    const size_t block = ++pressure->done;
+    const size_t block = pressure->done = (size_t)(tick / pressure->period);
+    ASSERT(block <= pressure->blocks);
     pressure->collisions[block] = (double)tally->collisions;
     for (int a = 0; a < state->box.dimension; a++) {
         pressure->virial[block] += tally->exchange[a][a];

@@ -550,6 +550,29 @@ START_TEST(square_lattice_scatters_at_its_reciprocal_vectors_only) {
 }
 END_TEST
 
+// It may give wrong numbers, it must not bring the program down.
+START_TEST(a_forged_count_of_pressure_blocks_is_survived) {
+    System system = system_of(2, 50, 0.4, 1);
+    State *state = new_state(&system);
+    const Clock clock = clock_of(80, 2);
+    const ObservableKind *kind = &observable_pressure;
+    Settings settings = settings_of(&kind->options);
+    set_number(&settings, &kind->options, "blocks", 4);
+    Observer *observer = new_observer(kind, &settings, state, &clock);
+    Archive saved = archive_writer();
+    kind->archive(observer, &saved);
+    const uint64_t all_done = 4; // behind the tag of eight bytes
+    memcpy(saved.bytes + 8, &all_done, sizeof all_done);
+    Archive forged = archive_reader(saved.bytes, saved.size);
+    kind->archive(observer, &forged);
+    ck_assert_int_eq(archive_status(&forged, true), OK);
+    ck_assert_int_eq(kind->see(observer, kind->next(observer, -1), state, &(Tally){0}), OK);
+    archive_free(&saved);
+    kind->free(observer);
+    state_free(state);
+}
+END_TEST
+
 START_TEST(pressure_is_that_of_the_collisions_told) {
     System system = system_of(2, 50, 0.4, 1);
     State *state = new_state(&system);
@@ -712,6 +735,7 @@ static Suite *suite(void) {
     tcase_add_test(c, structure_factor_agrees_with_its_slow_twin);
     tcase_add_loop_test(c, density_modes_have_the_same_bits_on_every_path, 0, 2);
     tcase_add_test(c, square_lattice_scatters_at_its_reciprocal_vectors_only);
+    tcase_add_test(c, a_forged_count_of_pressure_blocks_is_survived);
     tcase_add_test(c, pressure_is_that_of_the_collisions_told);
     tcase_add_test(c, normal_velocities_are_maxwellian_whatever_the_mass);
     tcase_add_test(c, snapshot_is_the_last_configuration);
