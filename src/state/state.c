@@ -63,6 +63,7 @@ double state_packing_fraction(const State *state) {
     return filled / box_volume(&state->box);
 }
 
+static const int64_t STEPS_MOST = INT64_MAX / 2;      // no run gets there, and none may overflow
 static const uint64_t STATE_TAG = 0x5354415445303031; // "STATE001"
 
 void state_archive(State *state, Archive *archive) {
@@ -77,7 +78,8 @@ void state_archive(State *state, Archive *archive) {
         archive_i32(archive, state->image[a], state->count);
     }
     archive_i64(archive, &state->step, 1);
-    archive_require(archive, state->step >= 0, "its step count is negative");
+    archive_require(archive, state->step >= 0 && state->step <= STEPS_MOST,
+                    "its step count cannot be");
     if (archive->loading && archive->status == OK && state_validate(state) != OK) {
         archive->status = BAD_DATA;
     }

@@ -325,6 +325,12 @@ START_TEST(torn_and_spoiled_saves_are_refused) {
     Archive spoiled = archive_reader(saved.bytes, saved.size);
     ck_assert_int_eq(replica_load(&loaded, plan, 0, &spoiled), BAD_DATA);
     archive_free(&saved);
+    Archive ahead = archive_writer();
+    ((State *)replica_state(replica))->step = INT64_MAX; // one more would overflow
+    replica_save(replica, &ahead);
+    Archive forged = archive_reader(ahead.bytes, ahead.size);
+    ck_assert_int_eq(replica_load(&loaded, plan, 0, &forged), BAD_DATA);
+    archive_free(&ahead);
     replica_free(replica);
     memory_free(plan);
 }
