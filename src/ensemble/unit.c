@@ -7,7 +7,6 @@
 #include "store/trajectory.h"
 
 #include <math.h>
-#include <math.h>
 #include <stdlib.h>
 #include <time.h>
 

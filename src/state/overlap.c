@@ -12,15 +12,15 @@ typedef struct Cells {
     int64_t *next;  // [count]
 } Cells;
 
-// Cells at least the largest diameter wide; fewer than three along an axis are made one, where
-// the nearest image alone is looked at.
+// Cells at least the largest diameter wide, and so wide that there is about one for each particle
+// at most; fewer than three along an axis are made one, where the nearest image alone is looked at.
 static void choose_cells(Cells *cells, const State *state) {
-    double widest = 0;
-    for (size_t i = 0; i < state->count; i++) widest = fmax(widest, state->diameter[i]);
-    const double most = cbrt((double)state->count) + sqrt((double)state->count);
+    const double room = box_volume(&state->box) / (double)state->count;
+    double width = state->box.dimension == 2 ? sqrt(room) : cbrt(room);
+    for (size_t i = 0; i < state->count; i++) width = fmax(width, state->diameter[i]);
     for (int a = 0; a < 3; a++) {
-        const double fit = a < state->box.dimension ? state->box.edge[a] / widest : 1;
-        cells->number[a] = fit < 3 ? 1 : (int64_t)fmin(fit, fmax(most, 3));
+        const double fit = a < state->box.dimension ? state->box.edge[a] / width : 1;
+        cells->number[a] = fit < 3 ? 1 : (int64_t)fit;
     }
 }
 
