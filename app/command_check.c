@@ -128,8 +128,8 @@ static Status check(const Arguments *arguments) {
 }
 
 static const Flag flags[] = {
-    {'s', "set", "KEY=VALUE", "Override a key of the run file; may be given again."},
-    {0, "all", NULL, "Print the run file with all defaults written out instead."},
+    {'s', "set", "KEY=VALUE", "override a key of the run file; may be given again"},
+    {0, "all", NULL, "print the run file with all defaults written out instead"},
     {0},
 };
 

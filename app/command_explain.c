@@ -13,7 +13,7 @@ static Status explain(const Arguments *arguments) {
 }
 
 static const Flag flags[] = {
-    {0, "manual", NULL, "Print the reference of the run file, in Markdown."},
+    {0, "manual", NULL, "print the reference of the run file, in Markdown"},
     {0},
 };
 

@@ -8,9 +8,8 @@
 #include <stdio.h>
 
 static const Flag flags[] = {
-    {.name = "json", .about = "One JSON object: run, quantities, series."},
-    {.name = "csv",
-     .about = "Comma-separated values: all quantities, or the points of one series."},
+    {.name = "json", .about = "one JSON object: run, quantities, series"},
+    {.name = "csv", .about = "comma-separated values: all quantities, or the points of one series"},
     {.name = NULL},
 };
 

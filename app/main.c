@@ -44,8 +44,9 @@ static size_t flag_count(const Command *command) {
 }
 
 static void print_help(const Command *command, FILE *out) {
-    fprintf(out, "usage: perrin %s%s %s\n\n%s\n", command->name,
-            flag_count(command) ? " [FLAGS]" : "", command->operands, command->about);
+    fprintf(out, "usage: perrin %s%s%s%s\n\n%s\n", command->name,
+            flag_count(command) ? " [FLAGS]" : "", command->operands[0] ? " " : "",
+            command->operands, command->about);
     for (size_t i = 0; i < flag_count(command); i++) {
         const Flag *flag = &command->flags[i];
         char name[64];

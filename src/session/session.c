@@ -76,9 +76,10 @@ static Status begin(Session *session, const SessionWishes *wishes) {
     TRY(store_open(&session->store, wishes->directory));
     TRY(take_plan(session));
     TRY(ensemble_create(&session->ensemble, session->plan, session->store, wishes->threads));
-    TRY(store_log(session->store, "perrin %s (%s) %s, %zu threads", version_number(),
-                  version_commit(), session->resumes ? "resumes" : "starts",
-                  ensemble_threads(session->ensemble)));
+    const size_t threads = ensemble_threads(session->ensemble);
+    TRY(store_log(session->store, "perrin %s (%s) %s, %zu thread%s", version_number(),
+                  version_commit(), session->resumes ? "resumes" : "starts", threads,
+                  threads == 1 ? "" : "s"));
     return ensemble_start(session->ensemble);
 }
 
