@@ -206,6 +206,7 @@ static Status more_events(Engine *engine) {
 static Status replay(Engine *engine, bool list_failed) {
     const bool fresh = engine->snapshot.windows == 1 && engine->list.age == 1;
     snapshot_restore(engine);
+    engine->hung = 0; // with collisions missed, anything may happen
     if (engine->outgrown) TRY(more_events(engine));
     if (fresh && list_failed) {
         return status_fail(UNHEALTHY,
@@ -252,16 +253,15 @@ static void run_kernel(Engine *engine) {
 
 static Status one_window(Engine *engine) {
     run_kernel(engine);
+    next_window(engine);
+    const bool list_failed = !(sqrt(engine->list.farthest2) <= list_reach(engine));
+    if (list_failed || engine->outgrown) return replay(engine, list_failed);
     if (engine->hung) {
         return status_fail(UNHEALTHY,
                            "a particle collided more than 1000 times within one window "
-                           "of %g in step %lld: the packing is jammed or overlaps",
-                           engine->settings.window, (long long)engine->state->step);
+                           "of %g before step %lld: the packing is jammed or overlaps",
+                           engine->settings.window, (long long)engine->state->step + 1);
     }
-    next_window(engine);
-    const double reach = list_reach(engine), farthest = sqrt(engine->list.farthest2);
-    const bool list_failed = !(farthest <= reach);
-    if (list_failed || engine->outgrown) return replay(engine, list_failed);
     TRY(keep_list(engine));
     if (engine->snapshot.windows >= SNAPSHOT_WINDOWS) snapshot_take(engine);
     return OK;
@@ -314,9 +314,14 @@ Status engine_check(const System *system, double window) {
 }
 
 size_t engine_memory(const System *system) {
-    static const size_t neighbours[2] = {8, 24}; // of a particle, padded
-    const size_t three = system->dimension == 3, row = three ? ROW_3D : ROW_2D;
-    const size_t per_particle = 3 * row * sizeof(double) + 12 * sizeof(double) +
-                                neighbours[three] * 24 + sizeof(Event) + 48;
-    return (size_t)system->particles * per_particle + sizeof(Engine) + 8192;
+    // Typical of dense fluids: pairs in the half list, neighbours padded to whole blocks.
+    static const double pairs[2] = {3.5, 6.5}, neighbours[2] = {8, 16};
+    const int three = system->dimension == 3;
+    const double rows = (three ? ROW_3D : ROW_2D) * 2 * sizeof(double);
+    const double arrays = (ANCHOR + 4 + (double)system->dimension) * sizeof(double) +
+                          (7 + (double)system->dimension) * sizeof(uint32_t) + sizeof(Event);
+    const double lists = pairs[three] * (5 * sizeof(uint32_t) + 2 * sizeof(double)) +
+                         neighbours[three] * (sizeof(uint32_t) + sizeof(double));
+    const double spare = 1.125; // room that lists grow by
+    return (size_t)((double)system->particles * (rows + arrays + spare * lists)) + sizeof(Engine);
 }
