@@ -77,10 +77,13 @@ static bool halves_agree(const Curve *curve, size_t begin, size_t end) {
     return fabs(mean) <= AGREEMENT * error;
 }
 
-static size_t window_begin(const Curve *curve) {
+// Where the window begins; `settled` if the slope is seen to have stopped changing before.
+static size_t window_begin(const Curve *curve, bool *settled) {
+    *settled = true;
     for (size_t begin = 0; begin + 2 * HALF_LEAST <= curve->lags; begin++) {
         if (halves_agree(curve, begin, curve->lags)) return middle(curve, begin, curve->lags);
     }
+    *settled = false;
     size_t begin = 0;
     const double last = curve->times[curve->lags - 1];
     while (begin + 2 < curve->lags && curve->times[begin] < last / LAST_STRETCH) begin++;
@@ -117,11 +120,16 @@ static Status put_short(Results *results, const Curve *curve, const char *specie
 
 static Status put_long(Results *results, const Curve *curve, const char *species,
                        const char *unit) {
-    const size_t begin = window_begin(curve);
+    static const char SETTLED[] =
+        "Slope of <r^2>/(2 dim) against t, from long_time_window to the last lag.";
+    static const char FALLING[] =
+        "Upper bound, for the slope is not seen to have stopped falling: that of <r^2>/(2 dim) "
+        "against t, from long_time_window to the last lag.";
+    bool settled = false;
+    const size_t begin = window_begin(curve, &settled);
     for (size_t replica = 0; replica < results->replicas; replica++) {
-        TRY(put(results, curve, "long_time_diffusion", species, unit,
-                "Slope of <r^2>/(2 dim) against t, from long_time_window to the last lag.", replica,
-                slope(curve, replica, begin, curve->lags)));
+        TRY(put(results, curve, "long_time_diffusion", species, unit, settled ? SETTLED : FALLING,
+                replica, slope(curve, replica, begin, curve->lags)));
         TRY(put(
             results, curve, "long_time_window", species, curve->series->axis[2].unit,
             "Start of the fit: over as long before it in log t the slope is the same within two "

@@ -107,7 +107,9 @@ START_TEST(long_time_diffusion_is_the_slope_beyond_the_cage) {
     const double begin = scalar_of(results, "quiescent", "long_time_window");
     ck_assert_double_gt(begin, 0.25); // the cage is left at 0.1
     ck_assert_double_lt(begin, 5);
-    ck_assert_str_eq(results_find_scalar(results, "quiescent", "long_time_diffusion")->unit, "D0");
+    const ResultScalar *found = results_find_scalar(results, "quiescent", "long_time_diffusion");
+    ck_assert_str_eq(found->unit, "D0");
+    ck_assert_ptr_null(strstr(found->about, "Upper"));
     results_free(results);
 }
 END_TEST
@@ -118,6 +120,8 @@ START_TEST(where_the_slope_still_falls_the_last_stretch_is_taken) {
     ck_assert_int_eq(analysis_derive(results, &system), OK);
     ck_assert_double_ge(scalar_of(results, "quiescent", "long_time_window"), 2.5);
     ck_assert_double_gt(scalar_of(results, "quiescent", "long_time_diffusion"), 0.001);
+    ck_assert_ptr_nonnull(
+        strstr(results_find_scalar(results, "quiescent", "long_time_diffusion")->about, "Upper"));
     results_free(results);
 }
 END_TEST
