@@ -4,6 +4,7 @@
 #include "config/tree.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <ctype.h>
 #include <stdarg.h>
@@ -326,6 +327,21 @@ Status tree_read(Node **out, const char *name, const char *text, size_t length) 
     return status;
 }
 
+static Status no_such_stage(const Node *stages, const Node *place, const char *name) {
+    char shown[QUOTE_SIZE];
+    Text known = {0};
+    for (const Node *stage = stages->first; stage; stage = stage->next) {
+        const Node *called = tree_find(stage, "stage");
+        if (!called || !called->text) continue;
+        text_add(&known, "%s%s", known.length ? ", " : "", tree_quote(shown, called->text));
+    }
+    const Status status =
+        tree_fail(place, "no stage is called '%s'; there is %s", tree_quote(shown, name),
+                  known.length ? text_words(&known) : "none");
+    text_free(&known);
+    return status;
+}
+
 // An entry of a map by its key, made if need be; of a list of stages by the stage's name.
 static Status set_step(Node *parent, const char *assignment, const char *key, Node **out) {
     char shown[QUOTE_SIZE];
@@ -337,8 +353,7 @@ static Status set_step(Node *parent, const char *assignment, const char *key, No
         const char *called = name ? name->text : entry->key;
         if (called && strcmp(called, key) == 0) return *out = entry, OK;
     }
-    if (parent->kind == NODE_LIST)
-        return tree_fail(&place, "no stage is called '%s'", tree_quote(shown, key));
+    if (parent->kind == NODE_LIST) return no_such_stage(parent, &place, key);
     Node **slot = &parent->first;
     while (*slot) slot = &(*slot)->next;
     TRY(NEW(*slot));
