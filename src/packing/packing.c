@@ -12,9 +12,9 @@
 #include <math.h>
 #include <time.h>
 
-static const double WINDOW = 0.01;                  // in d sqrt(m/kT)
-static const int64_t WINDOWS_PER_DRAW = 10;         // of the velocities
-static const int64_t WINDOWS_PER_LOOK = 100;        // at `stop`
+static const double WINDOW = 0.01;           // in d sqrt(m/kT), as all times, for diameters near 1
+static const int64_t WINDOWS_PER_DRAW = 10;  // of the velocities
+static const int64_t WINDOWS_PER_LOOK = 100; // at `stop`
 static const double MELT_PACKING[2] = {0.40, 0.30}; // 2D, 3D: fluids that mix fast
 static const double MELT_TIME = 20;                 // in d sqrt(m/kT), and
 static const double MELT_TIME_PER_EDGE = 0.5;       // sound must cross the box, if it is small:
@@ -120,22 +120,34 @@ static Status run(Engine *engine, int64_t windows, const atomic_int *stop, Tally
     return OK;
 }
 
+// The diameter that times scale with, since large particles need longer to pass each other: the
+// smallest, so that none flies far in a window, but not below 1, where time is no concern.
+static double reference_diameter(const System *system) {
+    double smallest = system->species[0].diameter;
+    for (size_t s = 1; s < system->species_count; s++) {
+        smallest = fmin(smallest, system->species[s].diameter);
+    }
+    return fmax(1, smallest);
+}
+
 static Status melt_and_grow(State *state, Engine *engine, double scale, const atomic_int *stop,
                             Tally *tally) {
+    const double reference = reference_diameter(&state->system), window = WINDOW * reference;
     double edges = 0;
     for (int a = 0; a < state->box.dimension; a++) edges = fmax(edges, state->box.edge[a]);
-    const double melt = fmin(MELT_TIME + MELT_TIME_PER_EDGE * edges, MELT_TIME_MOST);
+    const double melt =
+        fmin(MELT_TIME * reference + MELT_TIME_PER_EDGE * edges, MELT_TIME_MOST * reference);
     engine_grow(engine, scale, 0);
-    TRY(run(engine, (int64_t)ceil(melt / WINDOW), stop, tally));
+    TRY(run(engine, (int64_t)ceil(melt / window), stop, tally));
     if (scale == 1) return OK;
     const double growth = 1 + MARGIN - scale;
     const int64_t windows = (int64_t)ceil(growth / (GROWTH_RATE * WINDOW));
-    engine_grow(engine, scale, growth / ((double)windows * WINDOW));
+    engine_grow(engine, scale, growth / ((double)windows * window));
     return run(engine, windows, stop, tally);
 }
 
 static Status swell(State *state, RngKey key, double scale, const atomic_int *stop, Tally *tally) {
-    const EngineSettings settings = {.window = WINDOW,
+    const EngineSettings settings = {.window = WINDOW * reference_diameter(&state->system),
                                      .windows_per_step = WINDOWS_PER_DRAW,
                                      .redraw = 1,
                                      .stream = STREAM_SWELLING};

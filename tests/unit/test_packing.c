@@ -111,7 +111,8 @@ START_TEST(masses_do_not_matter) {
 END_TEST
 
 START_TEST(the_lattice_is_forgotten) {
-    const System system = system_of(2, 400, 0.5, 1);
+    System system = system_of(2, 400, 0.5, 1);
+    system.species[0].diameter = _i ? 50 : 1;
     State *state = packed(&system, KEY, NULL);
     const Lattice lattice = lattice_best(&state->box, state->count);
     for (int a = 0; a < 2; a++) {
@@ -182,7 +183,7 @@ int main(void) {
     tcase_add_loop_test(packing, sizes_have_the_spread_that_was_asked_for, 0, 2);
     tcase_add_test(packing, equal_keys_give_equal_packings_and_others_do_not);
     tcase_add_test(packing, masses_do_not_matter);
-    tcase_add_test(packing, the_lattice_is_forgotten);
+    tcase_add_loop_test(packing, the_lattice_is_forgotten, 0, 2);
     tcase_add_loop_test(packing, a_lattice_has_room_for_all_and_its_nearest_distance, 0, 5);
     tcase_add_test(packing, impossible_densities_are_refused);
     tcase_add_test(packing, packing_stops_when_asked);
