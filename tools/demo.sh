@@ -16,6 +16,7 @@ build/perrin show "$directory" | awk '
     function trim(text) { sub(/^ +/, "", text); sub(/ +$/, "", text); return text }
     NR == 1 { # the columns of the table begin where their titles do
         value = index($0, "value"); unit = index($0, "unit"); n = index($0, " n ") + 1
+        about = index($0, "about")
         next
     }
     NF == 0 || /^series / { exit } # series follow
@@ -28,6 +29,8 @@ build/perrin show "$directory" | awk '
         shown = trim(substr($0, value, unit - value))
         if (shown !~ /\(/) shown = sprintf("%.5g", shown) # exact, or the same in all replicas
         number[stage, name] = sprintf("%-16s %s", shown, trim(substr($0, unit, n - unit)))
+        if (substr($0, about) ~ /^Upper bound/) # of a slope still falling at the last lag
+            number[stage, name] = number[stage, name] "  (upper bound)"
         order[++rows] = name
     }
     function line(name, words) {
