@@ -183,7 +183,6 @@ Status unit_health_put(Results *results, const UnitHealth *health) {
          (double)health->overlaps, 0},
         {"deepest_overlap", "deepest overlap at output, relative to contact",
          health->deepest_overlap, 1e-12},
-        {"non_finite", "numbers that were not finite", (double)tally->non_finite, 0},
         {"deepest_contact", "deepest overlap of a colliding pair, relative to contact",
          tally->deepest_contact, 1e-9},
         {"corrected_contacts", "pairs found overlapping and approaching, collided at once",

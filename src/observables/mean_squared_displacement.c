@@ -81,6 +81,12 @@ static Status check(const Settings *settings, const System *system, const Clock 
                            "of %g %s; make it shorter",
                            msd->first, msd->last > 0 ? msd->last : time / 3, clock->unit);
     }
+    if (lags_for(settings, clock).count == LAGS_MOST) {
+        return status_fail(BAD_DATA,
+                           "mean_squared_displacement: more than %d lags; make times.per_decade "
+                           "smaller or the range of times shorter",
+                           LAGS_MOST - 1);
+    }
     return OK;
 }
 

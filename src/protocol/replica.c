@@ -11,7 +11,7 @@
 
 static const double OVERLAP_LIMIT = 1e-12; // depth, relative to contact, that counts as unhealthy
 static const double SLICE_SECONDS = 0.05;  // signals are noticed between slices
-static const int64_t HEALTH_STEPS = 2000;  // steps between overlap checks
+static const int64_t HEALTH_STEPS = 2000;  // most steps between overlap checks
 
 struct Replica {
     const Plan *plan;
@@ -111,15 +111,13 @@ static Status begin_stage(Replica *replica) {
     return show_observers(replica, -1);
 }
 
-static Status end_stage(Replica *replica) {
-    TRY(check_health(replica));
+static void end_stage(Replica *replica) {
     replica->propagator->kind->free(replica->propagator);
     replica->propagator = NULL;
     tally_add(&replica->finished, &replica->tally);
     replica->tally = (Tally){0};
     replica->tick = 0;
     replica->stage++;
-    return OK;
 }
 
 static Status allocate(Replica **out, const Plan *plan, size_t index) {
@@ -210,9 +208,12 @@ static Status advance(Replica *replica) {
     TRY(replica->propagator->kind->advance(replica->propagator, after - before, &replica->tally));
     replica->tick = after;
     TRY(show_observers(replica, before));
-    if (frames && after % frames == 0) replica->frames_due++;
-    if (after % (HEALTH_STEPS * replica->clock.ticks_per_step) == 0) TRY(check_health(replica));
-    return after == replica->clock.ticks ? end_stage(replica) : OK;
+    const bool frame = frames && after % frames == 0, ends = after == replica->clock.ticks;
+    const bool due = after % (HEALTH_STEPS * replica->clock.ticks_per_step) == 0;
+    if (frame) replica->frames_due++;
+    if (frame || ends || due) TRY(check_health(replica));
+    if (ends) end_stage(replica);
+    return OK;
 }
 
 static double thread_seconds(void) {

@@ -13,7 +13,6 @@ void tally_archive(Tally *tally, Archive *archive) {
     archive_u64(archive, &tally->replays, 1);
     archive_u64(archive, &tally->stale, 1);
     archive_u64(archive, &tally->windows, 1);
-    archive_u64(archive, &tally->non_finite, 1);
 }
 
 void tally_add(Tally *sum, const Tally *more) {
@@ -27,5 +26,4 @@ void tally_add(Tally *sum, const Tally *more) {
     sum->replays += more->replays;
     sum->stale += more->stale;
     sum->windows += more->windows;
-    sum->non_finite += more->non_finite;
 }

@@ -17,7 +17,6 @@ typedef struct Tally {
     uint64_t replays;       // windows replayed since a particle outran the list
     uint64_t stale;         // predicted events voided by an earlier one
     uint64_t windows;       // windows done
-    uint64_t non_finite;    // numbers that were not finite where one was wanted
 } Tally;
 
 // The counters `rebuilds`, `replays` and `stale` are of the machinery, not of the physics: they
