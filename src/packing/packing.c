@@ -19,9 +19,11 @@ static const double MELT_PACKING[2] = {0.40, 0.30}; // 2D, 3D: fluids that mix f
 static const double MELT_TIME = 20;                 // in d sqrt(m/kT), and
 static const double MELT_TIME_PER_EDGE = 0.5;       // sound must cross the box, if it is small:
 static const double MELT_TIME_MOST = 60;            // order is lost locally
-static const double GROWTH_RATE = 0.02;             // of the scale of diameters, per d sqrt(m/kT)
-static const double LATTICE_GAP = 1e-3;             // between the largest neighbours at the start
-static const double MARGIN = 1e-10; // grown beyond the target, so that contacts open
+static const double GROWTH_RATE = 0.02; // of the scale of diameters, per d sqrt(m/kT); where the
+static const double SLOWER = 5;         // particles jam, again, this much slower,
+static const int ATTEMPTS = 3;          // so often in all: slow growth finds denser packings
+static const double LATTICE_GAP = 1e-3; // between the largest neighbours at the start
+static const double MARGIN = 1e-10;     // grown beyond the target, so that contacts open
 
 // Packing fractions that growth at this rate reaches; above, everything jams or must crystallise.
 static const double EQUAL_MOST[2] = {0.86, 0.60}, UNEQUAL_MOST[2] = {0.83, 0.62};
@@ -130,8 +132,8 @@ static double reference_diameter(const System *system) {
     return fmax(1, smallest);
 }
 
-static Status melt_and_grow(State *state, Engine *engine, double scale, const atomic_int *stop,
-                            Tally *tally) {
+static Status melt_and_grow(State *state, Engine *engine, double scale, double rate,
+                            const atomic_int *stop, Tally *tally) {
     const double reference = reference_diameter(&state->system), window = WINDOW * reference;
     double edges = 0;
     for (int a = 0; a < state->box.dimension; a++) edges = fmax(edges, state->box.edge[a]);
@@ -141,19 +143,20 @@ static Status melt_and_grow(State *state, Engine *engine, double scale, const at
     TRY(run(engine, (int64_t)ceil(melt / window), stop, tally));
     if (scale == 1) return OK;
     const double growth = 1 + MARGIN - scale;
-    const int64_t windows = (int64_t)ceil(growth / (GROWTH_RATE * WINDOW));
+    const int64_t windows = (int64_t)ceil(growth / (rate * WINDOW));
     engine_grow(engine, scale, growth / ((double)windows * window));
     return run(engine, windows, stop, tally);
 }
 
-static Status swell(State *state, RngKey key, double scale, const atomic_int *stop, Tally *tally) {
+static Status swell(State *state, RngKey key, double scale, double rate, const atomic_int *stop,
+                    Tally *tally) {
     const EngineSettings settings = {.window = WINDOW * reference_diameter(&state->system),
                                      .windows_per_step = WINDOWS_PER_DRAW,
                                      .redraw = 1,
                                      .stream = STREAM_SWELLING};
     Engine *engine = NULL;
     TRY(engine_create(&engine, &settings, state, key));
-    const Status status = melt_and_grow(state, engine, scale, stop, tally);
+    const Status status = melt_and_grow(state, engine, scale, rate, stop, tally);
     engine_free(engine);
     return status;
 }
@@ -170,16 +173,20 @@ static void restore_masses(State *state) {
     }
 }
 
-// At rest, in the box it started in, at step 0: the propagator draws the velocities.
-static Status settle(State *state) {
+static void rest(State *state) {
     state->step = 0;
-    restore_masses(state);
     for (int a = 0; a < state->box.dimension; a++) {
         for (size_t i = 0; i < state->count; i++) {
             state->velocity[a][i] = 0;
             state->image[a][i] = 0;
         }
     }
+}
+
+// At rest, in the box it started in, at step 0: the propagator draws the velocities.
+static Status settle(State *state) {
+    rest(state);
+    restore_masses(state);
     double deepest = 0;
     TRY(state_validate(state));
     TRY(state_deepest_overlap(state, 0, &deepest, NULL));
@@ -187,15 +194,29 @@ static Status settle(State *state) {
     return status_fail(UNHEALTHY, "the packing overlaps by %.3g", deepest);
 }
 
+// Swells, and where that jams, swells again more slowly.
+static Status grow(State *state, RngKey key, const Lattice *lattice, const atomic_int *stop,
+                   PackingReport *report) {
+    double rate = GROWTH_RATE;
+    for (int attempt = 1;; attempt++, rate /= SLOWER) {
+        Tally tally = {0};
+        rest(state);
+        TRY(place(state, key, lattice));
+        const Status status = swell(state, key, report->lattice_scale, rate, stop, &tally);
+        report->windows += (int64_t)tally.windows;
+        if (status != UNHEALTHY) return status;
+        if (attempt == ATTEMPTS) break;
+    }
+    return status_fail(UNHEALTHY, "swelling to packing fraction %.4g failed: %s",
+                       system_packing_fraction(&state->system), status_sentence());
+}
+
 static Status pack(State *state, RngKey key, const atomic_int *stop, PackingReport *report) {
     draw_diameters(state, key);
     const Lattice lattice = lattice_best(&state->box, state->count);
-    TRY(place(state, key, &lattice));
     forget_masses(state);
-    Tally tally = {0};
     report->lattice_scale = starting_scale(state, &lattice);
-    TRY(swell(state, key, report->lattice_scale, stop, &tally));
-    report->windows = (int64_t)tally.windows;
+    TRY(grow(state, key, &lattice, stop, report));
     return settle(state);
 }
 
