@@ -166,6 +166,17 @@ START_TEST(impossible_densities_are_refused) {
 }
 END_TEST
 
+// Equal discs at 0.86 must order: with this key the first growth jams, the second does not.
+START_TEST(growth_that_jams_is_repeated_more_slowly) {
+    const System system = system_of(2, 1000, 0.86, 1);
+    PackingReport report;
+    State *state = packed(&system, (RngKey){.seed = 2}, &report);
+    check_valid(state);
+    ck_assert_int_gt(report.windows, 10000); // once takes 5000
+    state_free(state);
+}
+END_TEST
+
 START_TEST(packing_stops_when_asked) {
     const System system = system_of(2, 1000, 0.7, 2);
     const atomic_int stop = 1;
@@ -186,6 +197,7 @@ int main(void) {
     tcase_add_loop_test(packing, the_lattice_is_forgotten, 0, 2);
     tcase_add_loop_test(packing, a_lattice_has_room_for_all_and_its_nearest_distance, 0, 5);
     tcase_add_test(packing, impossible_densities_are_refused);
+    tcase_add_test(packing, growth_that_jams_is_repeated_more_slowly);
     tcase_add_test(packing, packing_stops_when_asked);
     suite_add_tcase(suite, packing);
     SRunner *runner = srunner_create(suite);
