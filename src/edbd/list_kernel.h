@@ -41,36 +41,39 @@ KERNEL void pair_span(const int dimension, Engine *engine, uint32_t slot, Span s
 // which spans[0] begins with the cell itself.
 KERNEL void pair_cell(const int dimension, Engine *engine, size_t cell, const Span *spans,
                       int count) {
-    for (uint32_t slot = engine->cell_start[cell]; slot < engine->cell_start[cell + 1]; slot++) {
-        pair_span(dimension, engine, slot, (Span){slot + 1, spans[0].to});
-        for (int s = 1; s < count; s++) pair_span(dimension, engine, slot, spans[s]);
+    Engine own = *engine; // a copy, which what is written to the list cannot be: see run()
+    for (uint32_t slot = own.cell_start[cell]; slot < own.cell_start[cell + 1]; slot++) {
+        pair_span(dimension, &own, slot, (Span){slot + 1, spans[0].to});
+        for (int s = 1; s < count; s++) pair_span(dimension, &own, slot, spans[s]);
     }
+    engine->list.pairs = own.list.pairs;
 }
 
 // The pairs of the half list that may meet soon: nearer than contact + the inner skin.
 KERNEL void prune_pairs(const int dimension, Engine *engine) {
-    NeighbourList *list = &engine->list;
+    const Engine own = *engine;
+    const NeighbourList *list = &own.list;
     size_t near = 0;
     for (size_t p = 0; p < list->pairs; p += LANES) {
         const double *i[LANES], *j[LANES];
         for (size_t k = 0; k < LANES; k++) {
-            i[k] = engine->rows + list->first[p + k];
-            j[k] = engine->rows + list->second[p + k];
+            i[k] = own.rows + list->first[p + k];
+            j[k] = own.rows + list->second[p + k];
         }
         Lanes r[3], v[3], r2 = {0};
         lanes_separate(dimension, i, j, r, v);
         for (int a = 0; a < dimension; a++) {
-            r[a] = lanes_nearest(r[a], lanes_all(engine->edge[a]), lanes_all(engine->edge[a] / 2));
+            r[a] = lanes_nearest(r[a], lanes_all(own.edge[a]), lanes_all(own.edge[a] / 2));
             r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
         }
         const Lanes contact2 = lanes_load(list->pair_contact2 + p);
         const Lanes range =
-            lanes_sqrt(contact2) * lanes_all(engine->scale) + lanes_all(list->inner_skin);
+            lanes_sqrt(contact2) * lanes_all(own.scale) + lanes_all(list->inner_skin);
         const unsigned bits = lanes_bits(lanes_less(r2, range * range));
         lanes_pack_u32(list->near_first + near, bits, list->first + p);
         lanes_pack_u32(list->near_second + near, bits, list->second + p);
         lanes_pack(list->near_contact2 + near, bits, contact2);
         near += (unsigned)__builtin_popcount(bits);
     }
-    list->near = near;
+    engine->list.near = near;
 }
