@@ -202,7 +202,7 @@ static const struct {
      0.0006,
      40,
      {0.02, 0.01, 0.005}},
-    {"spheres 0.50: <r^2>/(6 D0 t) at 0.25", 3, 0.50, 0.25, 0.1301, 0.001, 10, {0.05, 0.025, 0.02}},
+    {"spheres 0.50: <r^2>/(6 D0 t) at 0.25", 3, 0.50, 0.25, 0.1301, 0.001, 25, {0.05, 0.025, 0.02}},
 };
 
 START_TEST(three_intervals_collapse_onto_the_known_displacement) {
