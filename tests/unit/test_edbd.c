@@ -127,9 +127,11 @@ START_TEST(newtonian_motion_conserves_energy_and_momentum) {
     run(&propagator_newtonian, &settings, state, 1, &tally);
     const double energy = kinetic_energy(state);
     ck_assert_double_eq_tol(energy, (2 + _i) * 500 / 2.0, 1e-9);
-    run(&propagator_newtonian, &settings, state, 24000, &tally);
-    ck_assert_uint_ge(tally.collisions, 1000000);
-    ck_assert_double_eq_tol(kinetic_energy(state) / energy, 1, 1e-12);
+    run(&propagator_newtonian, &settings, state, 240000, &tally);
+    ck_assert_uint_ge(tally.collisions, 10000000);
+    // One rounding of the energy of the pair in each collision, were all of one sign.
+    const double rounding = (double)tally.collisions * DBL_EPSILON * 2 / 500;
+    ck_assert_double_eq_tol(kinetic_energy(state) / energy, 1, rounding);
     for (int a = 0; a < 2 + _i; a++) ck_assert_double_eq_tol(momentum(state, a), 0, 1e-10);
     ck_assert_uint_eq(tally.corrected, 0);
     state_free(state);
