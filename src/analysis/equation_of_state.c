@@ -8,6 +8,9 @@
 #include <math.h>
 #include <stdbool.h>
 
+static const Body disc = {.shape = SHAPE_DISC, .diameter = 1};
+static const Body sphere = {.shape = SHAPE_SPHERE, .diameter = 1};
+
 static double square(double x) {
     return x * x;
 }
@@ -77,9 +80,9 @@ double equation_second_virial(const System *system) {
     diameter_moments(system, m);
     const double density = system_number_density(system);
     if (system->dimension == 2) {
-        return 1 + density * shape_second_virial(SHAPE_DISC, 1, 1) * (m[2] + square(m[1])) / 2;
+        return 1 + density * shape_second_virial(&disc, &disc) * (m[2] + square(m[1])) / 2;
     }
-    return 1 + density * shape_second_virial(SHAPE_SPHERE, 1, 1) * (m[3] + 3 * m[1] * m[2]) / 4;
+    return 1 + density * shape_second_virial(&sphere, &sphere) * (m[3] + 3 * m[1] * m[2]) / 4;
 }
 
 EquationOfState equation_of_state(const System *system) {

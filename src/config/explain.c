@@ -125,8 +125,9 @@ static bool explain_in_section(const Section *section, const char *word, FILE *o
 static bool explain_shape(const char *word, FILE *out) {
     for (int shape = 0; shape < SHAPES; shape++) {
         if (strcmp(shape_names[shape], word) != 0) continue;
-        fprintf(out, "shape: %s\n  A hard body in %d dimensions; equal ones fill at most %.4f.\n",
-                word, shape_dimension((ShapeKind)shape), shape_densest_packing((ShapeKind)shape));
+        fprintf(out, "shape: %s\n  A %s body in %d dimensions.\n", word,
+                shape_is_hard((ShapeKind)shape) ? "hard" : "soft",
+                shape_dimension((ShapeKind)shape));
         return true;
     }
     return false;
@@ -241,11 +242,12 @@ void config_manual(FILE *out) {
         const Section section = section_at(s);
         manual_section(&section, out);
     }
-    fputs("\n## Shapes\n\n| shape | dimension | densest packing of equal ones |\n|---|---|---|\n",
-          out);
+    fputs("\n## Shapes\n\n| shape | dimension | body axis | hard |\n|---|---|---|---|\n", out);
     for (int shape = 0; shape < SHAPES; shape++)
-        fprintf(out, "| `%s` | %d | %.4f |\n", shape_names[shape],
-                shape_dimension((ShapeKind)shape), shape_densest_packing((ShapeKind)shape));
+        fprintf(out, "| `%s` | %d | %s | %s |\n", shape_names[shape],
+                shape_dimension((ShapeKind)shape),
+                shape_is_oriented((ShapeKind)shape) ? "yes" : "no",
+                shape_is_hard((ShapeKind)shape) ? "yes" : "no");
     fputs("\n## Units\n\n| unit | meaning |\n|---|---|\n", out);
     for (size_t i = 0; i < COUNT(units); i++)
         fprintf(out, "| %s | %s |\n", units[i].name, units[i].about);

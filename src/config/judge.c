@@ -98,7 +98,8 @@ static double size_ratio(const System *system) {
 // the triangle of two large discs and a small one. Spheres of k sizes: each size may at best fill
 // the holes of the larger ones as densely as equal spheres fill space.
 static double densest_packing(const System *system) {
-    const double equal = shape_densest_packing((ShapeKind)system->species[0].shape);
+    const Body first = species_body(&system->species[0]);
+    const double equal = shape_densest_packing(&first);
     const double q = size_ratio(system);
     if (q == 1) return equal;
     if (system->dimension == 2 && q > 0)

@@ -283,6 +283,12 @@ Status engine_check(const System *system, double window) {
     for (size_t s = 0; s < system->species_count; s++) {
         const Species *species = &system->species[s];
         const double spread = species->spread == SPREAD_NONE ? 0 : 3 * species->spread_width;
+        if (species->shape != SHAPE_DISC && species->shape != SHAPE_SPHERE) {
+            return status_fail(BAD_DATA,
+                               "method = event-driven or newtonian moves discs and spheres, and "
+                               "'%s' is a %s; use dynamic-monte-carlo",
+                               species->name, shape_names[species->shape]);
+        }
         if (shape_dimension((ShapeKind)species->shape) != system->dimension) {
             return status_fail(BAD_DATA,
                                "species '%s': a %s lives in %d dimensions, the system has "

@@ -12,11 +12,12 @@
 // The stage's time axis.
 typedef struct Clock {
     double tick;        // in `unit`
-    double flight_time; // of a tick, in d sqrt(m/kT)
+    double flight_time; // of a tick, in d sqrt(m/kT); NaN where nothing flies
     int64_t ticks;      // in the stage
     int64_t ticks_per_step;
     const char *unit;   // "d^2/D0" or "d sqrt(m/kT)"
     const char *stage;  // its name, for the results
+    bool flies;         // there are velocities and collisions
     bool thermostatted; // velocities are redrawn: positions diffuse
 } Clock;
 

@@ -47,6 +47,14 @@ static int64_t period_for(const Settings *settings, const Clock *clock) {
     return looks_period(clock, ((const PressureSettings *)settings->bytes)->blocks);
 }
 
+static Status check(const Settings *settings, const System *system, const Clock *clock) {
+    (void)settings;
+    (void)system;
+    if (clock->flies) return OK;
+    return status_fail(BAD_DATA, "pressure: Monte Carlo counts no collisions, from which it is "
+                                 "measured; pair_distribution gives it from contact values");
+}
+
 static Status create(Observer **out, const Settings *settings, const State *state,
                      const Clock *clock) {
     (void)state;
@@ -178,6 +186,7 @@ const ObservableKind observable_pressure = {
     .about = "Pressure, compressibility factor and collision rate from the momentum that "
              "collisions exchange.",
     .options = {rows, sizeof rows / sizeof *rows, sizeof(PressureSettings)},
+    .check = check,
     .create = create,
     .next = next,
     .see = see,

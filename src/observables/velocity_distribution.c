@@ -61,6 +61,14 @@ static void discard(Observer *observer) {
     memory_free(observer);
 }
 
+static Status check(const Settings *settings, const System *system, const Clock *clock) {
+    (void)settings;
+    (void)system;
+    if (clock->flies) return OK;
+    return status_fail(
+        BAD_DATA, "velocity_distribution: there are no velocities in Monte Carlo; leave it out");
+}
+
 static Status create(Observer **out, const Settings *settings_, const State *state,
                      const Clock *clock) {
     const VelocitySettings *settings = (const VelocitySettings *)settings_->bytes;
@@ -193,6 +201,7 @@ const ObservableKind observable_velocity_distribution = {
     .about = "Histogram of velocity components per species against Maxwell's, and the kinetic "
              "temperature.",
     .options = {rows, sizeof rows / sizeof *rows, sizeof(VelocitySettings)},
+    .check = check,
     .create = create,
     .next = next,
     .see = see,

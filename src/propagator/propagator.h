@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The seam between physics and house: everything that advances time looks like this. Time is an
-// integer count of ticks, each `tick` long; a step is a whole number of ticks, and a State at the
-// end of a step determines the future.
+// integer count of ticks, each `tick` long; a step is a whole number of ticks, and at the end of a
+// step the State, with what `archive` saves, determines the future.
 #pragma once
 
 #include "base/option.h"
@@ -32,18 +32,24 @@ struct PropagatorKind {
 
     // BAD_DATA with a sentence if this method cannot do this system with these settings.
     Status (*check)(const Settings *settings, const System *system);
+    bool flies;         // there are velocities, and collisions that the Tally counts
     bool thermostatted; // velocities are redrawn, so that positions diffuse
     double (*tick)(const Settings *settings, const System *system); // in time_unit
-    double (*flight_time)(const Settings *settings);                // of a tick, in d sqrt(m/kT)
+    double (*flight_time)(const Settings *settings); // of a tick, in d sqrt(m/kT); if it `flies`
     int64_t (*ticks_per_step)(const Settings *settings);
     double (*seconds_per_particle_tick)(const Settings *, const System *); // rough, for `check`
     size_t (*memory)(const System *system);                                // bytes per replica
 
     // Borrows the state until free. Draws velocities where the state has none (all zero).
     Status (*create)(Propagator **out, const Settings *settings, State *state, RngKey key);
+    // Called once, when a stage begins and before its time does; NULL where there is nothing to do.
+    // May move the particles.
+    Status (*prepare)(Propagator *propagator);
     // On return the state is that of `ticks` later. advance(a), advance(b) gives the bits of
     // advance(a + b).
     Status (*advance)(Propagator *propagator, int64_t ticks, Tally *tally);
+    // What the State does not hold; NULL if it holds all.
+    void (*archive)(Propagator *propagator, Archive *archive);
     void (*free)(Propagator *propagator);
 };
 

@@ -47,11 +47,12 @@ Clock plan_clock(const Plan *plan, size_t stage) {
     const double steps = rint(at->time / (tick * (double)per_step));
     ASSERT(steps * (double)per_step < TICKS_MOST);
     return (Clock){.tick = tick,
-                   .flight_time = kind->flight_time(&at->dynamics.settings),
+                   .flight_time = kind->flies ? kind->flight_time(&at->dynamics.settings) : NAN,
                    .ticks = per_step * (steps < 1 ? 1 : (int64_t)steps),
                    .ticks_per_step = per_step,
                    .unit = kind->time_unit,
                    .stage = at->name,
+                   .flies = kind->flies,
                    .thermostatted = kind->thermostatted};
 }
 
@@ -128,7 +129,7 @@ Status plan_check(const Plan *plan) {
 size_t plan_memory(const Plan *plan) {
     const size_t particles = (size_t)plan->system.particles;
     const size_t state =
-        particles * (1 + 2 * sizeof(double) + 3 * (2 * sizeof(double) + sizeof(int32_t)));
+        particles * (1 + 2 * sizeof(double) + 3 * (3 * sizeof(double) + sizeof(int32_t)));
     size_t propagator = 0, observers = 0;
     for (size_t s = 0; s < plan->stage_count; s++) {
         const Stage *stage = &plan->stages[s];

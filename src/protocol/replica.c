@@ -106,6 +106,8 @@ static Status make_propagator(Replica *replica) {
 
 static Status begin_stage(Replica *replica) {
     TRY(make_propagator(replica));
+    Propagator *propagator = replica->propagator;
+    if (propagator->kind->prepare) TRY(propagator->kind->prepare(propagator));
     TRY(make_observers(replica, replica->stage));
     replica->frames_due += records_its_start(replica->plan, replica->stage);
     return show_observers(replica, -1);
@@ -247,6 +249,11 @@ static void archive_observers(Replica *replica, Archive *archive, size_t stages)
     }
 }
 
+static void archive_propagator(Replica *replica, Archive *archive) {
+    Propagator *propagator = replica->propagator;
+    if (propagator && propagator->kind->archive) propagator->kind->archive(propagator, archive);
+}
+
 static void archive_place(Replica *replica, Archive *archive, uint64_t *stage, uint64_t *begun) {
     archive_tag(archive, REPLICA_TAG);
     archive_u64(archive, stage, 1);
@@ -279,6 +286,7 @@ void replica_save(Replica *replica, Archive *archive) {
     archive_place(replica, archive, &stage, &begun);
     state_archive(replica->state, archive);
     archive_observers(replica, archive, replica->stage + begun);
+    archive_propagator(replica, archive);
 }
 
 static Status load(Replica *replica, Archive *archive) {
@@ -290,7 +298,7 @@ static Status load(Replica *replica, Archive *archive) {
     replica->stage = (size_t)stage;
     for (size_t s = 0; s < stage + begun; s++) TRY(make_observers(replica, s));
     archive_observers(replica, archive, (size_t)(stage + begun));
-    TRY(archive_status(archive, true));
+    TRY(archive_status(archive, !begun));
     if (!begun) return OK;
     const Clock clock = plan_clock(replica->plan, replica->stage);
     if (replica->tick < 0 || replica->tick >= clock.ticks ||
@@ -298,7 +306,9 @@ static Status load(Replica *replica, Archive *archive) {
         return status_fail(BAD_DATA, "stored state cannot be used: it is at tick %lld of %lld",
                            (long long)replica->tick, (long long)clock.ticks);
     }
-    return make_propagator(replica);
+    TRY(make_propagator(replica));
+    archive_propagator(replica, archive);
+    return archive_status(archive, true);
 }
 
 Status replica_load(Replica **out, const Plan *plan, size_t index, Archive *archive) {

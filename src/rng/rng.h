@@ -46,3 +46,10 @@ void rng_normals(RngKey key, RngStream stream, uint64_t step, const uint32_t *id
 // The same numbers on a given instruction set, which the processor must have: for tests, benches.
 void rng_normals_with(CpuPath path, RngKey key, RngStream stream, uint64_t step,
                       const uint32_t *ids, size_t count, int components, double *const normals[3]);
+
+// For the hot path: raw words, RNG_BLOCK of them in each numbered block; word i of a block is a
+// pure function of (key, stream, block, i). Vectorised Threefry2x32, keyed at each block by Philox.
+enum { RNG_BLOCK = 4096 };
+void rng_words(RngKey key, RngStream stream, uint64_t block, uint32_t words[RNG_BLOCK]);
+void rng_words_with(CpuPath path, RngKey key, RngStream stream, uint64_t block,
+                    uint32_t words[RNG_BLOCK]);

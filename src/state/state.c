@@ -14,6 +14,7 @@ static Status allocate(State *state) {
         TRY(NEW_ARRAY(state->position[a], state->count));
         TRY(NEW_ARRAY(state->velocity[a], state->count));
         TRY(NEW_ARRAY(state->image[a], state->count));
+        if (state->oriented) TRY(NEW_ARRAY(state->orientation[a], state->count));
     }
     return OK;
 }
@@ -21,8 +22,10 @@ static Status allocate(State *state) {
 Status state_create(State **out, const System *system) {
     State *state = NULL;
     TRY(NEW(state));
-    *state =
-        (State){.box = system_box(system), .system = *system, .count = (size_t)system->particles};
+    *state = (State){.box = system_box(system),
+                     .system = *system,
+                     .oriented = system_is_oriented(system),
+                     .count = (size_t)system->particles};
     const Status status = allocate(state);
     if (status != OK) {
         state_free(state);
@@ -35,6 +38,7 @@ Status state_create(State **out, const System *system) {
         for (size_t k = 0; k < counts[s]; k++, particle++) {
             state->species_of[particle] = (uint8_t)s;
             state->mass[particle] = system->species[s].mass;
+            if (state->oriented) state->orientation[2][particle] = 1;
         }
     }
     *out = state;
@@ -50,6 +54,7 @@ void state_free(State *state) {
         memory_free(state->position[a]);
         memory_free(state->velocity[a]);
         memory_free(state->image[a]);
+        memory_free(state->orientation[a]);
     }
     memory_free(state);
 }
@@ -57,8 +62,9 @@ void state_free(State *state) {
 double state_packing_fraction(const State *state) {
     double filled = 0;
     for (size_t i = 0; i < state->count; i++) {
-        const Species *species = &state->system.species[state->species_of[i]];
-        filled += shape_volume((ShapeKind)species->shape, state->diameter[i]);
+        Body body = species_body(&state->system.species[state->species_of[i]]);
+        body.diameter = state->diameter[i];
+        filled += shape_volume(&body);
     }
     return filled / box_volume(&state->box);
 }
@@ -76,6 +82,7 @@ void state_archive(State *state, Archive *archive) {
         archive_f64(archive, state->position[a], state->count);
         archive_f64(archive, state->velocity[a], state->count);
         archive_i32(archive, state->image[a], state->count);
+        if (state->oriented) archive_f64(archive, state->orientation[a], state->count);
     }
     archive_i64(archive, &state->step, 1);
     archive_require(archive, state->step >= 0 && state->step <= STEPS_MOST,

@@ -9,16 +9,19 @@
 
 typedef struct State {
     Box box;
-    System system;       // what this is a sample of
-    size_t count;        // particles
-    uint8_t *species_of; // [count], index into system.species; sorted by species
-    double *diameter;    // [count], in d
-    double *mass;        // [count], in m
-    double *position[3]; // [3][count], folded into [0, edge), in d; z = 0 in 2D
-    double *velocity[3]; // [3][count], in sqrt(kT/m)
-    int32_t *image[3];   // [3][count], unfolded position = position + image * edge
-    int64_t step;        // thermostat intervals (or windows) since the replica began: addresses
-                         // the random numbers
+    System system;          // what this is a sample of
+    size_t count;           // particles
+    bool oriented;          // some species has a body axis
+    uint8_t *species_of;    // [count], index into system.species; sorted by species
+    double *diameter;       // [count], in d
+    double *mass;           // [count], in m
+    double *position[3];    // [3][count], folded into [0, edge), in d; z = 0 in 2D
+    double *velocity[3];    // [3][count], in sqrt(kT/m)
+    int32_t *image[3];      // [3][count], unfolded position = position + image * edge
+    double *orientation[3]; // [3][count], unit vectors along the body axes, z for particles without
+                            // one; NULL unless `oriented`
+    int64_t step; // thermostat intervals, windows or trial moves since the replica began: addresses
+                  // the random numbers
 } State;
 
 // Allocates the arrays, sets box, species and masses; diameters, positions are for packing.

@@ -28,6 +28,18 @@ static const Option species_rows[] = {
      shape_names, .required = 1},
     {"diameter", OPTION_REAL, offsetof(Species, diameter), 1, 0.01, 100, "d",
      "Diameter; the mean if the sizes are spread."},
+    {"length", OPTION_REAL, offsetof(Species, length), 0, 0, 100, "d",
+     "Length of the cylinder of a spherocylinder, without its caps."},
+    {"exponent", OPTION_REAL, offsetof(Species, exponent), 36, 4, 200, "",
+     "Exponent n of soft spheres, whose energy is kT (d/r)^n."},
+    {"diffusion.parallel", OPTION_REAL, offsetof(Species, diffusion.parallel), 0, 0, 1e6,
+     "kT/(eta d)",
+     "Free diffusion coefficient along the body axis, or of a body without one; 0: "
+     "built in. Monte Carlo only: event-driven dynamics goes by mass."},
+    {"diffusion.perpendicular", OPTION_REAL, offsetof(Species, diffusion.perpendicular), 0, 0, 1e6,
+     "kT/(eta d)", "Free diffusion coefficient across the body axis; 0: built in."},
+    {"diffusion.rotational", OPTION_REAL, offsetof(Species, diffusion.rotational), 0, 0, 1e6,
+     "kT/(eta d^3)", "Free rotational diffusion coefficient of the body axis; 0: built in."},
     {"mass", OPTION_REAL, offsetof(Species, mass), 1, 1e-6, 1e6, "m",
      "Mass; the free diffusion coefficient of a species is inversely proportional to it."},
     {"fraction", OPTION_REAL, offsetof(Species, fraction), 1, 0, 1, "",
@@ -59,16 +71,51 @@ void system_counts(const System *system, size_t counts[SPECIES_MOST]) {
     }
 }
 
+Body species_body(const Species *species) {
+    return (Body){.shape = (ShapeKind)species->shape,
+                  .diameter = species->diameter,
+                  .length = species->length,
+                  .exponent = species->exponent};
+}
+
+bool system_is_oriented(const System *system) {
+    for (size_t s = 0; s < system->species_count; s++) {
+        if (shape_is_oriented((ShapeKind)system->species[s].shape)) return true;
+    }
+    return false;
+}
+
+Diffusion species_diffusion(const Species *species) {
+    const Body body = species_body(species);
+    const Diffusion given = species->diffusion;
+    Diffusion diffusion = shape_diffusion(&body);
+    if (given.parallel > 0) diffusion.parallel = given.parallel;
+    if (!shape_is_oriented(body.shape)) diffusion.perpendicular = diffusion.parallel;
+    if (given.perpendicular > 0) diffusion.perpendicular = given.perpendicular;
+    if (given.rotational > 0) diffusion.rotational = given.rotational;
+    return diffusion;
+}
+
+double system_reference_diffusion(const System *system) {
+    const Diffusion first = species_diffusion(&system->species[0]);
+    return diffusion_mean(&first, (int)system->dimension);
+}
+
+// <(1 + w x)^p> of the relative deviations w x of diameters, whose distribution is symmetric.
+static double spread_moment(const Species *species, int power) {
+    static const double factor[4] = {0, 0, 1, 3};
+    const double width = species->spread == SPREAD_NONE ? 0 : species->spread_width;
+    return 1 + factor[power] * width * width;
+}
+
 double system_diameter_moment(const System *system, int power) {
     ASSERT(power >= 1 && power <= 3);
-    static const double spread_factor[4] = {0, 0, 1, 3}; // <(1 + w x)^p> - 1 over w^2, x odd-free
     size_t counts[SPECIES_MOST];
     system_counts(system, counts);
     double sum = 0;
     for (size_t s = 0; s < system->species_count; s++) {
         const Species *species = &system->species[s];
-        const double width = species->spread == SPREAD_NONE ? 0 : species->spread_width;
-        double moment = 1 + spread_factor[power] * width * width;
+        double moment = spread_moment(species, power);
         for (int p = 0; p < power; p++) moment *= species->diameter;
         sum += (double)counts[s] * moment;
     }
@@ -76,8 +123,16 @@ double system_diameter_moment(const System *system, int power) {
 }
 
 double system_mean_volume(const System *system) {
-    const ShapeKind ball = system->dimension == 2 ? SHAPE_DISC : SHAPE_SPHERE;
-    return shape_volume(ball, 1) * system_diameter_moment(system, (int)system->dimension);
+    size_t counts[SPECIES_MOST];
+    system_counts(system, counts);
+    double sum = 0;
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Species *species = &system->species[s];
+        const Body body = species_body(species);
+        sum += (double)counts[s] * shape_volume(&body) *
+               spread_moment(species, shape_dimension(body.shape));
+    }
+    return sum / (double)system->particles;
 }
 
 double system_packing_fraction(const System *system) {

@@ -6,7 +6,7 @@
 #include "base/option.h"
 #include "base/status.h"
 #include "box/box.h"
-#include "shapes/shape.h"
+#include "shapes/diffusion.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -19,6 +19,9 @@ typedef struct Species {
     char name[NAME_SIZE];
     int64_t shape;       // ShapeKind
     double diameter;     // mean, in d
+    double length;       // of the cylinder of a spherocylinder, without caps, in d
+    double exponent;     // of a soft sphere
+    Diffusion diffusion; // as the run file gives it; 0: built in
     double mass;         // in m: D_a = thermostat_interval kT/(2 m_a)
     double fraction;     // of all particles, by number
     int64_t spread;      // SpreadKind of the diameters
@@ -41,6 +44,14 @@ extern const char *const spread_names[SPREADS + 1];
 
 // How many particles of each species: largest remainders of fraction * particles, summing exactly.
 void system_counts(const System *system, size_t counts[SPECIES_MOST]);
+
+Body species_body(const Species *species); // of the mean size
+bool system_is_oriented(const System *system);
+
+// Of a free particle, in kT/(eta d): what the run file gives, the rest built in.
+Diffusion species_diffusion(const Species *species);
+// The unit of times, d^2/D0, has this D0: that of the first species, mean over directions.
+double system_reference_diffusion(const System *system);
 
 double system_mean_volume(const System *system); // per particle, spread included, in d^dimension
 double system_packing_fraction(const System *system); // whichever of the two was given

@@ -4,6 +4,22 @@
 
 #include <math.h>
 
+static void moves_archive(MoveTally *moves, Archive *archive) {
+    archive_u64(archive, &moves->trials, 1);
+    archive_u64(archive, &moves->accepted, 1);
+    archive_f64(archive, &moves->parallel, 1);
+    archive_f64(archive, &moves->perpendicular, 1);
+    archive_f64(archive, &moves->rotational, 1);
+}
+
+static void moves_add(MoveTally *sum, const MoveTally *more) {
+    sum->trials += more->trials;
+    sum->accepted += more->accepted;
+    sum->parallel += more->parallel;
+    sum->perpendicular += more->perpendicular;
+    sum->rotational += more->rotational;
+}
+
 void tally_archive(Tally *tally, Archive *archive) {
     archive_u64(archive, &tally->collisions, 1);
     archive_f64(archive, &tally->exchange[0][0], 9);
@@ -13,6 +29,7 @@ void tally_archive(Tally *tally, Archive *archive) {
     archive_u64(archive, &tally->replays, 1);
     archive_u64(archive, &tally->stale, 1);
     archive_u64(archive, &tally->windows, 1);
+    for (size_t s = 0; s < SPECIES_MOST; s++) moves_archive(&tally->moves[s], archive);
 }
 
 void tally_add(Tally *sum, const Tally *more) {
@@ -26,4 +43,5 @@ void tally_add(Tally *sum, const Tally *more) {
     sum->replays += more->replays;
     sum->stale += more->stale;
     sum->windows += more->windows;
+    for (size_t s = 0; s < SPECIES_MOST; s++) moves_add(&sum->moves[s], &more->moves[s]);
 }

@@ -5,7 +5,16 @@
 
 #include "base/archive.h"
 
-#include <stdint.h>
+#include "state/system.h"
+
+// Trial moves of one species. Squares are summed over accepted moves: what the clocks compare with
+// free diffusion.
+typedef struct MoveTally {
+    uint64_t trials, accepted;
+    double parallel;      // (displacement along the body axis)^2; of bodies without one, along x
+    double perpendicular; // |displacement across it|^2, of both directions together; or along y, z
+    double rotational;    // 1 - u'.u
+} MoveTally;
 
 typedef struct Tally {
     uint64_t collisions;    // pair collisions (each counted once)
@@ -17,6 +26,7 @@ typedef struct Tally {
     uint64_t replays;       // windows replayed since a particle outran the list
     uint64_t stale;         // predicted events voided by an earlier one
     uint64_t windows;       // windows done
+    MoveTally moves[SPECIES_MOST]; // of Monte Carlo
 } Tally;
 
 // The counters `rebuilds`, `replays` and `stale` are of the machinery, not of the physics: they
