@@ -30,14 +30,6 @@ void chain_publish(Chain *chain) {
     chain->kind->publish(chain);
 }
 
-void chain_mark(Chain *chain) {
-    chain->kind->mark(chain);
-}
-
-void chain_since_mark(const Chain *chain, MoveTally moves[SPECIES_MOST]) {
-    chain->kind->since_mark(chain, moves);
-}
-
 bool chain_rescale(Chain *chain, double scale) {
     return chain->kind->rescale(chain, scale);
 }
