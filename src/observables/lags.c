@@ -63,3 +63,35 @@ int64_t lags_next(const Lags *lags, const Clock *clock, int64_t after) {
     }
     return next <= clock->ticks ? next : INT64_MAX;
 }
+
+Lags lags_chosen(const LagSettings *settings, const Clock *clock) {
+    return lags_of(clock, settings->first, settings->last, settings->per_decade, settings->origins);
+}
+
+Status lags_check(const char *observable, const LagSettings *settings, const Clock *clock) {
+    const double time = clock->tick * (double)clock->ticks;
+    const double last = settings->last > 0 ? settings->last : time / 3;
+    if (last > time * (1 + 1e-9)) {
+        return status_fail(BAD_DATA,
+                           "%s: times.last = %g is longer than the stage '%s' of %g %s; make the "
+                           "stage longer or the lag shorter",
+                           observable, last, clock->stage, time, clock->unit);
+    }
+    if (settings->first > last) {
+        return status_fail(BAD_DATA,
+                           "%s: times.first = %g is beyond the longest lag of %g %s; make it "
+                           "shorter",
+                           observable, settings->first, last, clock->unit);
+    }
+    if (lags_chosen(settings, clock).count == LAGS_MOST) {
+        return status_fail(BAD_DATA,
+                           "%s: more than %d lags; make times.per_decade smaller or the range of "
+                           "times shorter",
+                           observable, LAGS_MOST - 1);
+    }
+    return OK;
+}
+
+void lags_times(const Lags *lags, const Clock *clock, double *times) {
+    for (size_t k = 0; k < lags->count; k++) times[k] = (double)lags->ticks[k] * clock->tick;
+}
