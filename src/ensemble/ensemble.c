@@ -168,6 +168,7 @@ static Status put_health(const EnsembleShared *shared) {
         tally_add(&sum.tally, &health->tally);
         sum.overlaps += health->overlaps;
         sum.deepest_overlap = fmax(sum.deepest_overlap, health->deepest_overlap);
+        sum.orientation_drift = fmax(sum.orientation_drift, health->orientation_drift);
     }
     return unit_health_put(results, &sum);
 }

@@ -141,7 +141,8 @@ static Status collect(Run *run) {
     const Status status = replica_write(run->replica, shared->results);
     unit->health = (UnitHealth){.tally = replica_tally(run->replica),
                                 .overlaps = replica_overlaps(run->replica),
-                                .deepest_overlap = replica_deepest_overlap(run->replica)};
+                                .deepest_overlap = replica_deepest_overlap(run->replica),
+                                .orientation_drift = replica_orientation_drift(run->replica)};
     unit->cpu_seconds = replica_cpu_seconds(run->replica);
     unit->finished = status == OK;
     unit->fraction = 1;
@@ -183,6 +184,8 @@ Status unit_health_put(Results *results, const UnitHealth *health) {
          (double)health->overlaps, 0},
         {"deepest_overlap", "deepest overlap at output, relative to contact",
          health->deepest_overlap, 1e-12},
+        {"orientation_drift", "largest deviation of the length of a body axis from 1",
+         health->orientation_drift, 1e-9},
         {"deepest_contact", "deepest overlap of a colliding pair, relative to contact",
          tally->deepest_contact, 1e-9},
         {"corrected_contacts", "pairs found overlapping and approaching, collided at once",

@@ -13,6 +13,7 @@ typedef struct UnitHealth {
     Tally tally;
     uint64_t overlaps; // seen at output, deeper than the limit
     double deepest_overlap;
+    double orientation_drift; // largest | |u| - 1 | of body axes
 } UnitHealth;
 
 // What others see of a replica; under the mutex.

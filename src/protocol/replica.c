@@ -26,6 +26,7 @@ struct Replica {
     int64_t frames_due, frames_taken;
     uint64_t overlaps;
     double deepest_overlap;
+    double orientation_drift;
     PackingReport packing;
     double cpu_seconds; // spent on advancing and observing, over all sessions
     Observer *observers[STAGES_MOST][OBSERVATIONS_MOST]; // made when their stage begins
@@ -38,6 +39,8 @@ static Status check_health(Replica *replica) {
     TRY(state_deepest_overlap(replica->state, OVERLAP_LIMIT, &deepest, &pairs));
     replica->overlaps += pairs;
     replica->deepest_overlap = fmax(replica->deepest_overlap, deepest);
+    replica->orientation_drift =
+        fmax(replica->orientation_drift, state_orientation_drift(replica->state));
     return OK;
 }
 
@@ -237,7 +240,7 @@ bool replica_can_save(const Replica *replica) {
     return !replica->propagator || replica->tick % replica->clock.ticks_per_step == 0;
 }
 
-static const uint64_t REPLICA_TAG = 0x5245504c30303031; // "REPL0001"
+static const uint64_t REPLICA_TAG = 0x5245504c30303032; // "REPL0002"
 
 static void archive_observers(Replica *replica, Archive *archive, size_t stages) {
     for (size_t s = 0; s < stages; s++) {
@@ -263,6 +266,7 @@ static void archive_place(Replica *replica, Archive *archive, uint64_t *stage, u
     archive_i64(archive, &replica->frames_taken, 1);
     archive_u64(archive, &replica->overlaps, 1);
     archive_f64(archive, &replica->deepest_overlap, 1);
+    archive_f64(archive, &replica->orientation_drift, 1);
     archive_f64(archive, &replica->packing.seconds, 1);
     archive_f64(archive, &replica->cpu_seconds, 1);
     archive_i64(archive, &replica->packing.windows, 1);
@@ -397,6 +401,10 @@ uint64_t replica_overlaps(const Replica *replica) {
 
 double replica_deepest_overlap(const Replica *replica) {
     return replica->deepest_overlap;
+}
+
+double replica_orientation_drift(const Replica *replica) {
+    return replica->orientation_drift;
 }
 
 Status replica_write(const Replica *replica, Results *results) {

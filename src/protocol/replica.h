@@ -40,6 +40,7 @@ double replica_cpu_seconds(const Replica *replica);   // packing apart, over all
 PackingReport replica_packing(const Replica *replica);
 uint64_t replica_overlaps(const Replica *replica); // at observations, deeper than the limit
 double replica_deepest_overlap(const Replica *replica);
+double replica_orientation_drift(const Replica *replica); // largest | |u| - 1 | of body axes
 
 // All observers' numbers, into this replica's slot.
 Status replica_write(const Replica *replica, Results *results);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The health check on overlaps: every pair closer than its contact distance, by linked cells. It
-// shares no code with the engines that it watches over.
+// The health check on overlaps: every pair of hard bodies that share space, by linked cells. It
+// shares no code with the engines that it watches over. Soft spheres have an energy instead.
 #include "base/memory.h"
 #include "state/state.h"
 
@@ -12,12 +12,18 @@ typedef struct Cells {
     int64_t *next;  // [count]
 } Cells;
 
-// Cells at least the largest diameter wide, and so wide that there is about one for each particle
+static double reach_of(const State *state, size_t i) {
+    Body body = species_body(&state->system.species[state->species_of[i]]);
+    body.diameter = state->diameter[i];
+    return shape_reach(&body);
+}
+
+// Cells at least as wide as the longest body, and so wide that there is about one for each particle
 // at most; fewer than three along an axis are made one, where the nearest image alone is looked at.
 static void choose_cells(Cells *cells, const State *state) {
     const double room = box_volume(&state->box) / (double)state->count;
     double width = state->box.dimension == 2 ? sqrt(room) : cbrt(room);
-    for (size_t i = 0; i < state->count; i++) width = fmax(width, state->diameter[i]);
+    for (size_t i = 0; i < state->count; i++) width = fmax(width, reach_of(state, i));
     for (int a = 0; a < 3; a++) {
         const double fit = a < state->box.dimension ? state->box.edge[a] / width : 1;
         cells->number[a] = fit < 3 ? 1 : (int64_t)fit;
@@ -50,7 +56,12 @@ static Status fill_cells(Cells *cells, const State *state) {
     return OK;
 }
 
+static bool is_hard(const State *state, size_t i) {
+    return shape_is_hard((ShapeKind)state->system.species[state->species_of[i]].shape);
+}
+
 static double overlap_depth(const State *state, size_t i, size_t j) {
+    if (!is_hard(state, i) || !is_hard(state, j)) return 0;
     double r[3] = {0, 0, 0};
     for (int a = 0; a < state->box.dimension; a++) {
         r[a] = state->position[a][i] - state->position[a][j];

@@ -92,21 +92,50 @@ void state_archive(State *state, Archive *archive) {
     }
 }
 
+static const double DRIFT_MOST = 1e-9; // of the length of a body axis from 1
+
+static double axis_drift(const State *state, size_t i) {
+    double square = 0;
+    for (int a = 0; a < 3; a++) square += state->orientation[a][i] * state->orientation[a][i];
+    return fabs(sqrt(square) - 1);
+}
+
+double state_orientation_drift(const State *state) {
+    double drift = 0;
+    for (size_t i = 0; state->oriented && i < state->count; i++) {
+        drift = fmax(drift, axis_drift(state, i));
+    }
+    return drift;
+}
+
+static Status validate_place(const State *state, size_t i) {
+    for (int a = 0; a < state->box.dimension; a++) {
+        const double x = state->position[a][i];
+        if (x >= 0 && x <= state->box.edge[a] && isfinite(state->velocity[a][i])) continue;
+        return status_fail(UNHEALTHY,
+                           "particle %zu: coordinate %c = %g (box edge %g), velocity %g: not "
+                           "finite or not in the box",
+                           i, 'x' + a, x, state->box.edge[a], state->velocity[a][i]);
+    }
+    return OK;
+}
+
+static Status validate_body(const State *state, size_t i) {
+    if (!(state->diameter[i] > 0 && isfinite(state->diameter[i]))) {
+        return status_fail(UNHEALTHY, "particle %zu: diameter %g is not a positive number", i,
+                           state->diameter[i]);
+    }
+    if (!state->oriented || axis_drift(state, i) <= DRIFT_MOST) return OK;
+    return status_fail(UNHEALTHY,
+                       "particle %zu: its body axis (%g, %g, %g) has length 1 only within %.3g", i,
+                       state->orientation[0][i], state->orientation[1][i], state->orientation[2][i],
+                       axis_drift(state, i));
+}
+
 Status state_validate(const State *state) {
     for (size_t i = 0; i < state->count; i++) {
-        for (int a = 0; a < state->box.dimension; a++) {
-            const double x = state->position[a][i];
-            if (!(x >= 0 && x <= state->box.edge[a]) || !isfinite(state->velocity[a][i])) {
-                return status_fail(UNHEALTHY,
-                                   "particle %zu: coordinate %c = %g (box edge %g), velocity %g: "
-                                   "not finite or not in the box",
-                                   i, 'x' + a, x, state->box.edge[a], state->velocity[a][i]);
-            }
-        }
-        if (!(state->diameter[i] > 0 && isfinite(state->diameter[i]))) {
-            return status_fail(UNHEALTHY, "particle %zu: diameter %g is not a positive number", i,
-                               state->diameter[i]);
-        }
+        TRY(validate_place(state, i));
+        TRY(validate_body(state, i));
     }
     return OK;
 }

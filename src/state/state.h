@@ -36,8 +36,11 @@ static inline double state_unfolded(const State *state, int axis, size_t particl
 double state_packing_fraction(const State *state);
 void state_archive(State *state, Archive *archive); // all but the system, which the plan has
 
-// BAD_DATA or UNHEALTHY with a sentence unless all is finite and in the box.
+// BAD_DATA or UNHEALTHY with a sentence unless all is finite, in the box, and body axes have length
+// 1 within 1e-9.
 Status state_validate(const State *state);
+
+double state_orientation_drift(const State *state); // the largest | |u| - 1 |; 0 without axes
 
 // The deepest overlap, as 1 - r/d_ij over all pairs; 0 if none. Linked cells, O(count); the
 // health check at output. `pairs`, if not NULL, is the number of pairs deeper than `depth`.

@@ -7,6 +7,7 @@
 #include <math.h>
 
 const char *const spread_names[SPREADS + 1] = {"none", "gaussian", "uniform", NULL};
+const char *const start_names[STARTS + 1] = {"compressed", "crystal", NULL};
 
 static const Option system_rows[] = {
     {"dimension", OPTION_INTEGER, offsetof(System, dimension), 0, 2, 3, "", "Dimension of space.",
@@ -19,6 +20,10 @@ static const Option system_rows[] = {
      "Particles per volume (area in 2D); give this or packing_fraction."},
     {"box.aspect", OPTION_REALS, offsetof(System, aspect), 0, 0.01, 100, "",
      "Ratios of the edges of the periodic box, one number per dimension; all equal by default."},
+    {"start", OPTION_CHOICE, offsetof(System, start), START_COMPRESSED, 0, 0, "",
+     "Where the particles begin: compressed from a dilute disorder to the density asked for, or on "
+     "the places of a crystal, body axes along z, for the first stage to melt.",
+     start_names},
 };
 const OptionTable system_options = {system_rows, sizeof system_rows / sizeof *system_rows,
                                     sizeof(System)};

@@ -15,6 +15,9 @@ enum { SPECIES_MOST = 16, NAME_SIZE = 32 };
 
 typedef enum SpreadKind { SPREAD_NONE, SPREAD_GAUSSIAN, SPREAD_UNIFORM, SPREADS } SpreadKind;
 
+// How packing begins.
+typedef enum StartKind { START_COMPRESSED, START_CRYSTAL, STARTS } StartKind;
+
 typedef struct Species {
     char name[NAME_SIZE];
     int64_t shape;       // ShapeKind
@@ -34,6 +37,7 @@ typedef struct System {
     double packing_fraction; // 0 when number_density is given
     double number_density;   // in d^-dimension; 0 when packing_fraction is given
     OptionReals aspect;      // edge ratios of the box; empty: all edges equal
+    int64_t start;           // StartKind
     size_t species_count;
     Species species[SPECIES_MOST];
 } System;
@@ -41,6 +45,7 @@ typedef struct System {
 extern const OptionTable system_options;  // scalar keys of `system:`
 extern const OptionTable species_options; // keys of one entry of `system.species:`
 extern const char *const spread_names[SPREADS + 1];
+extern const char *const start_names[STARTS + 1];
 
 // How many particles of each species: largest remainders of fraction * particles, summing exactly.
 void system_counts(const System *system, size_t counts[SPECIES_MOST]);
