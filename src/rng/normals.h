@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Private to rng/: the three builds of the normal numbers of normals_kernel.h.
+// Private to rng/: the three builds of the normal numbers and words of normals_kernel.h.
 #pragma once
 
 #include <stddef.h>
@@ -15,6 +15,11 @@ typedef struct NormalsKey {
 typedef void NormalsFill(const NormalsKey *key, const uint32_t *ids, size_t count, int components,
                          double *const normals[3]);
 NormalsFill normals_fill_portable, normals_fill_avx2, normals_fill_avx512;
+
+// Words of the counters 0, 1, ... `pairs` - 1, a multiple of 16: the first of each, then the
+// second.
+typedef void WordsFill(const uint32_t key[3], size_t pairs, uint32_t *words);
+WordsFill rng_fill_words_portable, rng_fill_words_avx2, rng_fill_words_avx512;
 
 // For the cold path and the tests, one lane of the portable build.
 double normals_one(uint32_t radius_word, uint32_t angle_word);

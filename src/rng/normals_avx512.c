@@ -7,3 +7,7 @@ void normals_fill_avx512(const NormalsKey *key, const uint32_t *ids, size_t coun
                          double *const normals[3]) {
     fill_normals(key, ids, count, components, normals);
 }
+
+void rng_fill_words_avx512(const uint32_t key[3], size_t pairs, uint32_t *words) {
+    fill_words(key, pairs, words);
+}

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Normal numbers by counter, LANES particles at a time: Threefry2x32 (Salmon, Moraes, Dror and Shaw
-// 2011) turns a particle's id into two 32-bit words, and Box and Muller (1958) turn these into two
-// normal numbers. Compiled once per instruction set by a file that defines LANES (4, 8 or 16).
+// Normal numbers and plain words by counter, LANES at a time: Threefry2x32 (Salmon, Moraes, Dror
+// and Shaw 2011) turns a particle's id into two 32-bit words, and Box and Muller (1958) turn these
+// into two normal numbers. Compiled once per instruction set by a file that defines LANES (4, 8 or
+// 16).
 //
 // Thirteen rounds instead of the customary twenty: the key is drawn afresh at every step by
 // Philox4x64-10, so that this generator only has to make the particles of one step independent, and
@@ -176,5 +177,20 @@ KERNEL void fill_normals(const NormalsKey *key, const uint32_t *ids, size_t coun
         const size_t size = count - at < CHUNK ? count - at : CHUNK;
         fill(key->plane, ids, size, 2, normals, at);
         if (components == 3) fill(key->third, ids, size, 1, normals + 2, at);
+    }
+}
+
+// Two vectors of counters at a time: one alone would wait for its own rounds.
+KERNEL void fill_words(const uint32_t key[3], size_t pairs, uint32_t *words) {
+    Words counter;
+    for (int lane = 0; lane < LANES; lane++) counter[lane] = (uint32_t)lane;
+    for (size_t i = 0; i < pairs; i += 2 * LANES, counter += 2 * LANES) {
+        Words x[2] = {counter, counter + LANES},
+              y[2] = {counter * 0 + key[2], counter * 0 + key[2]};
+        for (int k = 0; k < 2; k++) threefry(key, &x[k], &y[k]);
+        for (size_t k = 0; k < 2; k++) {
+            STORE(x[k], words + i + k * LANES);
+            STORE(y[k], words + pairs + i + k * LANES);
+        }
     }
 }

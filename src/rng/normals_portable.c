@@ -8,6 +8,10 @@ void normals_fill_portable(const NormalsKey *key, const uint32_t *ids, size_t co
     fill_normals(key, ids, count, components, normals);
 }
 
+void rng_fill_words_portable(const uint32_t key[3], size_t pairs, uint32_t *words) {
+    fill_words(key, pairs, words);
+}
+
 double normals_one(uint32_t radius_word, uint32_t angle_word) {
     const Words angle = {angle_word};
     const Reals normal = radius((Words){radius_word}, angle) * sine_of_half_circle(angle);

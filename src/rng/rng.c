@@ -11,6 +11,7 @@
 #include <string.h>
 
 static const uint64_t NO_PARTICLE = UINT64_MAX; // the counter of a key for the hot path
+enum { KEY_OF_NORMALS, KEY_OF_WORDS };          // its block
 
 static uint32_t lower(uint64_t word) {
     return (uint32_t)word;
@@ -59,7 +60,7 @@ double rng_normal(Rng *rng) {
 
 static NormalsKey normals_key(RngKey key, RngStream stream, uint64_t step) {
     uint64_t block[4];
-    philox(key, (const uint64_t[4]){0, NO_PARTICLE, step, stream}, block);
+    philox(key, (const uint64_t[4]){KEY_OF_NORMALS, NO_PARTICLE, step, stream}, block);
     return (NormalsKey){.plane = {lower(block[0]), upper(block[0]), lower(block[2])},
                         .third = {lower(block[1]), upper(block[1]), upper(block[2])}};
 }
@@ -87,4 +88,18 @@ static CpuPath chosen_path(void) {
 void rng_normals(RngKey key, RngStream stream, uint64_t step, const uint32_t *ids, size_t count,
                  int components, double *const normals[3]) {
     rng_normals_with(chosen_path(), key, stream, step, ids, count, components, normals);
+}
+
+void rng_words_with(CpuPath path, RngKey key, RngStream stream, uint64_t block,
+                    uint32_t words[RNG_BLOCK]) {
+    static WordsFill *const fills[CPU_PATHS] = {rng_fill_words_portable, rng_fill_words_avx2,
+                                                rng_fill_words_avx512};
+    uint64_t drawn[4];
+    philox(key, (const uint64_t[4]){KEY_OF_WORDS, NO_PARTICLE, block, stream}, drawn);
+    const uint32_t three[3] = {lower(drawn[0]), upper(drawn[0]), lower(drawn[1])};
+    fills[path](three, RNG_BLOCK / 2, words);
+}
+
+void rng_words(RngKey key, RngStream stream, uint64_t block, uint32_t words[RNG_BLOCK]) {
+    rng_words_with(chosen_path(), key, stream, block, words);
 }

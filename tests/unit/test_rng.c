@@ -415,6 +415,64 @@ START_TEST(the_cold_path_is_uniform_and_normal) {
 }
 END_TEST
 
+// Pair i of a block is Threefry2x32-13 of (i, third word of the key); the key is the Philox block
+// that only this use has.
+START_TEST(words_are_threefry_keyed_by_philox) {
+    static uint32_t words[RNG_BLOCK];
+    Rng philox = {.key = KEY, .counter = {1, UINT64_MAX, 77, STREAM_TRIALS}, .used = 4};
+    const uint64_t a = rng_bits(&philox), b = rng_bits(&philox);
+    const uint32_t key[2] = {(uint32_t)a, (uint32_t)(a >> 32)};
+    rng_words(KEY, STREAM_TRIALS, 77, words);
+    for (uint32_t i = 0; i < RNG_BLOCK / 2; i++) {
+        uint32_t expected[2] = {i, (uint32_t)b};
+        normals_words(key, expected);
+        ck_assert_uint_eq(words[i], expected[0]);
+        ck_assert_uint_eq(words[i + RNG_BLOCK / 2], expected[1]);
+    }
+}
+END_TEST
+
+START_TEST(every_instruction_set_gives_the_same_words) {
+    static uint32_t expected[RNG_BLOCK], found[RNG_BLOCK];
+    for (uint64_t block = 0; block < 100; block++) {
+        rng_words_with(CPU_PORTABLE, KEY, STREAM_TRIALS, block, expected);
+        for (int path = 1; path <= (int)cpu_path(); path++) {
+            rng_words_with((CpuPath)path, KEY, STREAM_TRIALS, block, found);
+            ck_assert_mem_eq(found, expected, sizeof found);
+        }
+    }
+}
+END_TEST
+
+// Upper and lower halves of the words, and sums of neighbours, over 4e7 words; and no bit of a word
+// goes with that of the same place in the next block, stream or replica.
+START_TEST(words_are_even_and_independent) {
+    enum { BLOCKS = 10000, SHARES = 1024 };
+    static double observed[3][SHARES], expected[SHARES], equal[3];
+    static uint32_t words[RNG_BLOCK], others[3][RNG_BLOCK];
+    for (uint64_t block = 0; block < BLOCKS; block++) {
+        rng_words(KEY, STREAM_TRIALS, block, words);
+        rng_words(KEY, STREAM_TRIALS, block + 1, others[0]);
+        rng_words(KEY, STREAM_SQUEEZING, block, others[1]);
+        rng_words((RngKey){KEY.seed, KEY.replica + 1}, STREAM_TRIALS, block, others[2]);
+        for (int i = 0; i < RNG_BLOCK; i++) {
+            observed[0][words[i] >> 22]++;
+            observed[1][words[i] & 1023]++;
+            observed[2][(words[i] + words[(i + 1) % RNG_BLOCK]) >> 22]++;
+            for (int k = 0; k < 3; k++) {
+                equal[k] += __builtin_popcount(words[i] ^ others[k][i]);
+            }
+        }
+    }
+    const double drawn = (double)BLOCKS * RNG_BLOCK;
+    for (int share = 0; share < SHARES; share++) expected[share] = drawn / SHARES;
+    for (int k = 0; k < 3; k++) {
+        ck_assert_double_le(fabs(excess_of_chi_square(observed[k], expected, SHARES)), 5.5);
+        ck_assert_double_eq_tol(equal[k], 16 * drawn, 5.5 * sqrt(8 * drawn));
+    }
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("rng");
     TCase *all = tcase_create("all");
@@ -434,6 +492,9 @@ int main(void) {
     tcase_add_test(all, no_two_blocks_are_equal);
     tcase_add_test(all, rng_below_is_unbiased);
     tcase_add_test(all, the_cold_path_is_uniform_and_normal);
+    tcase_add_test(all, words_are_threefry_keyed_by_philox);
+    tcase_add_test(all, every_instruction_set_gives_the_same_words);
+    tcase_add_test(all, words_are_even_and_independent);
     suite_add_tcase(suite, all);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
