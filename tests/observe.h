@@ -50,6 +50,33 @@ static inline System system_of(int dimension, int64_t particles, double packing_
     return system;
 }
 
+// Rods and platelets in equal numbers, or one of them alone.
+static inline System oriented_system(int64_t particles, size_t species) {
+    System system = {.dimension = 3,
+                     .particles = particles,
+                     .number_density = 0.1,
+                     .species_count = species,
+                     .species = {{.name = "plate",
+                                  .shape = SHAPE_PLATELET,
+                                  .diameter = 1,
+                                  .mass = 1,
+                                  .fraction = 1 / (double)species},
+                                 {.name = "rod",
+                                  .shape = SHAPE_SPHEROCYLINDER,
+                                  .diameter = 1,
+                                  .length = 5,
+                                  .mass = 1,
+                                  .fraction = 0.5}}};
+    return system;
+}
+
+static inline System soft_system(int64_t particles, double exponent) {
+    System system = system_of(3, particles, 0.3, 1);
+    system.species[0].shape = SHAPE_SOFT_SPHERE;
+    system.species[0].exponent = exponent;
+    return system;
+}
+
 static inline State *new_state(const System *system) {
     State *state = NULL;
     ck_assert_int_eq(state_create(&state, system), OK);
@@ -59,13 +86,22 @@ static inline State *new_state(const System *system) {
     return state;
 }
 
-// Uniformly random places: an ideal gas.
+static inline void set_axis(State *state, size_t i, const double u[3]) {
+    const double length = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+    for (int a = 0; a < 3; a++) state->orientation[a][i] = u[a] / length;
+}
+
+// Uniformly random places, and axes: an ideal gas.
 static inline void scatter(State *state, RngKey key, uint64_t step) {
     Rng rng = rng_open(key, STREAM_PACKING, step, 0);
     for (int a = 0; a < state->box.dimension; a++) {
         for (size_t i = 0; i < state->count; i++) {
             state->position[a][i] = rng_uniform(&rng) * state->box.edge[a];
         }
+    }
+    for (size_t i = 0; state->oriented && i < state->count; i++) {
+        const double u[3] = {rng_normal(&rng), rng_normal(&rng), rng_normal(&rng)};
+        set_axis(state, i, u);
     }
 }
 

@@ -2,6 +2,7 @@
 // The shared mathematics against exact values.
 #include "numerics/fit.h"
 #include "numerics/pade.h"
+#include "numerics/symmetric.h"
 #include "numerics/turn.h"
 
 #include <check.h>
@@ -68,6 +69,55 @@ START_TEST(edge_of_a_cubic_is_found_from_its_averages) {
 }
 END_TEST
 
+static double determinant(double v[3][3]) {
+    return v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) -
+           v[0][1] * (v[1][0] * v[2][2] - v[1][2] * v[2][0]) +
+           v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
+}
+
+// m v = value v for three unit vectors, values ascending.
+static void expect_eigen(const double m[3][3]) {
+    double values[3], vectors[3][3], size = 0;
+    symmetric_eigen(m, values, vectors);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) size += fabs(m[i][j]);
+    }
+    for (int k = 0; k < 3; k++) {
+        if (k > 0) ck_assert_double_le(values[k - 1], values[k]);
+        for (int i = 0; i < 3; i++) {
+            double product = 0;
+            for (int j = 0; j < 3; j++) product += m[i][j] * vectors[k][j];
+            ck_assert_double_eq_tol(product, values[k] * vectors[k][i], 2e-15 * size + 1e-300);
+        }
+    }
+    ck_assert_double_eq_tol(fabs(determinant(vectors)), 1, 1e-14); // they are orthonormal
+}
+
+START_TEST(eigenvectors_of_symmetric_matrices_are_found) {
+    for (int k = 1; k < 2000; k++) { // of any size, near to diagonal or far from it
+        const double off = pow(10, -(k % 21)), scale = pow(10, k % 13 - 6);
+        const double xx = sin(k), yy = sin(3 * k), zz = k % 3 ? sin(5 * k) : yy;
+        const double xy = off * sin(7 * k), xz = off * sin(11 * k), yz = off * off * sin(13 * k);
+        const double m[3][3] = {{scale * xx, scale * xy, scale * xz},
+                                {scale * xy, scale * yy, scale * yz},
+                                {scale * xz, scale * yz, scale * zz}};
+        expect_eigen(m);
+    }
+}
+END_TEST
+
+START_TEST(eigenvalues_known_beforehand_are_found) {
+    static const double ones[3][3] = {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, none[3][3] = {{0}};
+    double values[3], vectors[3][3];
+    symmetric_eigen(ones, values, vectors);
+    ck_assert_double_eq_tol(values[0], 0, 1e-15);
+    ck_assert_double_eq_tol(values[1], 0, 1e-15);
+    ck_assert_double_eq_tol(values[2], 3, 1e-15);
+    for (int a = 0; a < 3; a++) ck_assert_double_eq_tol(fabs(vectors[2][a]), sqrt(1 / 3.0), 1e-15);
+    expect_eigen(none);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("numerics");
     TCase *c = tcase_create("numerics");
@@ -77,6 +127,8 @@ int main(void) {
     tcase_add_test(c, pade_sums_a_slow_series);
     tcase_add_test(c, slope_of_a_straight_line_is_exact);
     tcase_add_test(c, edge_of_a_cubic_is_found_from_its_averages);
+    tcase_add_test(c, eigenvectors_of_symmetric_matrices_are_found);
+    tcase_add_test(c, eigenvalues_known_beforehand_are_found);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
