@@ -210,7 +210,7 @@ END_TEST
 // A free platelet, times in d^2/D0 with D0 = 1/6 kT/(eta d): the coefficients below are those of
 // Jabbari-Farouji and Trizac, eqs 13 and 14, over that.
 static const double PARALLEL = 0.75, PERPENDICULAR = 1.125, ROTATIONAL = 4.5;
-enum { WALK_TICKS = 3000, WALKERS = 400 };
+enum { WALK_TICKS = 3000, WALKERS = 400, ORIGINS = 3 * 64 };
 static const double TICK = 0.004;
 
 // A walk on the sphere with the <P1> and <P2> of rotational diffusion over any span: turns by one
@@ -279,6 +279,72 @@ START_TEST(free_rotors_forget_as_debye_says) {
 }
 END_TEST
 
+// <(dr.u(0))^2> = 2 D0 t + (4/3)(D_par - D_perp)(1 - exp(-6 D_rot t))/(6 D_rot), and at
+// 0.01 and 1 eta d^3/kT (0.01/6 and 1/6 of our unit) the values that this has in d^2.
+static double along_axis(double t) {
+    const double mean = (PARALLEL + 2 * PERPENDICULAR) / 3, rate = 6 * ROTATIONAL;
+    return 2 * mean * t + 4.0 / 3 * (PARALLEL - PERPENDICULAR) * (1 - exp(-rate * t)) / rate;
+}
+
+START_TEST(free_bodies_diffuse_along_where_they_pointed) {
+    ck_assert_double_eq_tol(along_axis(0.01 / 6), 0.0025184719, 1e-9);
+    ck_assert_double_eq_tol(along_axis(1 / 6.0), 0.315020537, 1e-8);
+    const System system = oriented_system(WALKERS, 1);
+    State *state = new_state(&system);
+    const Clock clock = clock_of(TICK, WALK_TICKS);
+    Results *results = watched(&observable_directional_displacement, state, &clock, walk);
+    const ResultSeries *series = series_of(results, "quiescent", "directional_displacement");
+    const ResultAxis *time = &series->axis[2];
+    const size_t lags = time->count;
+    for (size_t k = 0; k < lags; k++) {
+        const double t = time->values[k];
+        const double axial = along_axis(t), across = (6 * t - axial) / 2;
+        const double windows = fmin(WALK_TICKS * TICK / t, ORIGINS);
+        const double error = SIGMAS * sqrt(2 / (WALKERS * windows)) + 2e-4;
+        const double *at = series->values + k;
+        ck_assert_double_eq_tol(at[0] / axial, 1, error);
+        ck_assert_double_eq_tol(at[lags] / across, 1, error);
+        ck_assert_double_eq_tol(at[2 * lags] / (2 * t), 1, error); // no order: no direction
+        ck_assert_double_eq_tol(at[3 * lags] / (2 * t), 1, error);
+        ck_assert_double_eq_tol(at[0] + 2 * at[lags], at[2 * lags] + 2 * at[3 * lags], 1e-12 * t);
+    }
+    ck_assert_double_lt(series->values[0] / (2 * TICK), 0.8); // the short time knows D_par
+    results_free(results);
+    state_free(state);
+}
+END_TEST
+
+// Rods along z fly along (1, 2, 3).
+static void fly(State *state, int64_t tick) {
+    for (size_t i = 0; i < state->count; i++) {
+        const double up[3] = {0, 0, i % 2 ? 1 : -1};
+        set_axis(state, i, up);
+        for (int a = 0; a < 3; a++) {
+            const double x = 0.01 * (a + 1) * (double)tick, edge = state->box.edge[a];
+            state->image[a][i] = (int32_t)floor(x / edge);
+            state->position[a][i] = x - floor(x / edge) * edge;
+        }
+    }
+}
+
+START_TEST(flight_is_along_and_across_the_director) {
+    const System system = oriented_system(50, 2);
+    State *state = new_state(&system);
+    const Clock clock = clock_of(1, 900);
+    Results *results = watched(&observable_directional_displacement, state, &clock, fly);
+    const ResultSeries *series = series_of(results, "quiescent", "directional_displacement");
+    const size_t lags = series->axis[2].count;
+    ck_assert_uint_eq(series->axis[0].count, 3);
+    for (size_t i = 0; i < 12; i++) { // species and directions
+        const double t = series->axis[2].values[lags - 1];
+        const double expected = 1e-4 * t * t * (i % 2 ? 2.5 : 9);
+        ck_assert_double_eq_tol(series->values[i * lags + lags - 1] / expected, 1, 1e-11);
+    }
+    results_free(results);
+    state_free(state);
+}
+END_TEST
+
 static void turn_over(State *state, int64_t tick) {
     for (size_t i = 0; i < state->count; i++) {
         const double u[3] = {0, 0, state->species_of[i] == 1 && tick % 2 ? -1 : 1};
@@ -318,6 +384,7 @@ START_TEST(bodies_without_an_axis_have_no_orientation) {
     const System spheres = system_of(3, 100, 0.3, 2);
     expect_refusal(&observable_nematic_order, &spheres, "no species has a body axis");
     expect_refusal(&observable_orientation_correlation, &spheres, "no species has a body axis");
+    expect_refusal(&observable_directional_displacement, &spheres, "no species has a body axis");
 }
 END_TEST
 
@@ -331,6 +398,8 @@ int main(void) {
     tcase_add_test(c, every_species_has_its_own_order);
     tcase_add_test(c, order_that_appears_later_is_seen_in_its_blocks);
     tcase_add_test(c, free_rotors_forget_as_debye_says);
+    tcase_add_test(c, free_bodies_diffuse_along_where_they_pointed);
+    tcase_add_test(c, flight_is_along_and_across_the_director);
     tcase_add_test(c, a_body_turned_over_is_seen_by_the_first_polynomial_only);
     tcase_add_test(c, bodies_without_an_axis_have_no_orientation);
     suite_add_tcase(suite, c);
