@@ -9,6 +9,7 @@
 #include <string.h>
 
 Status derive_theory(Results *results, const char *stage, const System *system) {
+    if (!equation_of_state_known(system)) return OK;
     const EquationOfState theory = equation_of_state(system);
     const double pressure = system_number_density(system) * theory.compressibility_factor;
     const char *unit = system->dimension == 2 ? "kT/d^2" : "kT/d^3";
@@ -29,6 +30,14 @@ static Status derive_from(Results *results, const ResultSeries *series, const Sy
     if (strcmp(observable, "mean_squared_displacement") == 0) {
         TRY(derive_diffusion(results, series));
         return derive_free_displacement(results, series, system);
+    }
+    if (strcmp(observable, "directional_displacement") == 0) {
+        TRY(derive_directional_diffusion(results, series));
+        return derive_free_bodies(results, series, system);
+    }
+    if (strcmp(observable, "orientation_correlation") == 0) {
+        TRY(derive_relaxation(results, series));
+        return derive_free_bodies(results, series, system);
     }
     if (strcmp(observable, "contact_distribution") == 0) {
         TRY(derive_contact(results, series));

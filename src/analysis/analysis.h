@@ -10,7 +10,11 @@
 // For every stage that has the series:
 //   short_time_diffusion, long_time_diffusion, long_time_window   of mean_squared_displacement
 //   free_displacement, a series: 2 dim D0 t of each species        of the same
+//   long_time_diffusion_parallel, _perpendicular, _along_director, _across_director and windows
+//   free_directional_displacement, a series                       of directional_displacement
+//   relaxation_time_P1, relaxation_time_P2, orientation_plateau
+//   free_orientation_correlation, a series                        of orientation_correlation
 //   contact_value_A_B, compressibility_factor_contact             of contact_distribution
-//   compressibility_factor_theory, pressure_theory                the equation of state
+//   compressibility_factor_theory, pressure_theory                hard discs and spheres only
 // With several species, diffusion is given for all particles and, with _NAME, for each species.
 Status analysis_derive(Results *results, const System *system);

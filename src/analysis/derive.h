@@ -6,8 +6,11 @@
 #include "state/system.h"
 
 Status derive_diffusion(Results *results, const ResultSeries *displacement);
-// Adds a series, so that `displacement` is no longer valid afterwards.
+Status derive_directional_diffusion(Results *results, const ResultSeries *displacement);
+Status derive_relaxation(Results *results, const ResultSeries *correlation);
+// These two add a series, so that the one given is no longer valid afterwards.
 Status derive_free_displacement(Results *results, const ResultSeries *displacement,
                                 const System *system);
+Status derive_free_bodies(Results *results, const ResultSeries *series, const System *system);
 Status derive_contact(Results *results, const ResultSeries *distribution);
 Status derive_theory(Results *results, const char *stage, const System *system);

@@ -12,6 +12,10 @@
 // the window; its earlier half is the proof that the window is long after the change. Where no
 // stretch is like that, or with one replica, the window is the last LAST_STRETCH in time; the slope
 // is then an upper bound on the diffusion coefficient.
+//
+// The displacements of bodies with an axis, along and across the body axis and the director at the
+// time origin, have each its own: in the isotropic phase all tend to one, in the nematic those of
+// the director are the diffusion tensor.
 #include "analysis/derive.h"
 #include "base/memory.h"
 #include "numerics/fit.h"
@@ -30,9 +34,10 @@ typedef struct Curve {
     const Results *results;
     const ResultSeries *series;
     const double *times;
-    size_t lags, row;  // values[replica][row * lags + lag]
-    double dimensions; // that it sums over
-    double *weights;   // [lags], 1/t^2
+    size_t lags, row;         // values[replica][row * lags + lag]
+    double dimensions;        // that it sums over
+    double *weights;          // [lags], 1/t^2
+    char suffix[RESULT_NAME]; // of the names of its numbers: "_parallel_rod"
 } Curve;
 
 static const double *curve_of(const Curve *curve, size_t replica) {
@@ -99,27 +104,26 @@ static size_t fastest_lag(const Curve *curve) {
     return best;
 }
 
-static Status put(Results *results, const Curve *curve, const char *quantity, const char *species,
-                  const char *unit, const char *about, size_t replica, double value) {
-    char name[RESULT_NAME];
-    snprintf(name, sizeof name, "%s%s%s", quantity, species ? "_" : "", species ? species : "");
+static Status put(Results *results, const Curve *curve, const char *quantity, const char *unit,
+                  const char *about, size_t replica, double value) {
+    char name[2 * RESULT_NAME];
+    snprintf(name, sizeof name, "%s%s", quantity, curve->suffix);
     return results_put_scalar(results, curve->series->stage, name, unit, about, replica, value);
 }
 
-static Status put_short(Results *results, const Curve *curve, const char *species) {
+static Status put_short(Results *results, const Curve *curve) {
     const size_t lag = fastest_lag(curve);
     const double time = curve->times[lag];
     for (size_t replica = 0; replica < results->replicas; replica++) {
-        TRY(put(results, curve, "short_time_diffusion", species, "D0",
-                "Largest <r^2>/(2 dim t), reached about one thermostat interval; the free "
-                "coefficient for vanishing interval.",
+        TRY(put(results, curve, "short_time_diffusion", "D0",
+                "Largest <r^2>/(2 dim t), reached about one thermostat interval (Monte Carlo: at "
+                "once); the free coefficient for vanishing interval or step.",
                 replica, curve_of(curve, replica)[lag] / (2 * curve->dimensions * time)));
     }
     return OK;
 }
 
-static Status put_long(Results *results, const Curve *curve, const char *species,
-                       const char *unit) {
+static Status put_long(Results *results, const Curve *curve, const char *unit) {
     static const char SETTLED[] =
         "Slope of <r^2>/(2 dim) against t, from long_time_window to the last lag.";
     static const char FALLING[] =
@@ -128,10 +132,10 @@ static Status put_long(Results *results, const Curve *curve, const char *species
     bool settled = false;
     const size_t begin = window_begin(curve, &settled);
     for (size_t replica = 0; replica < results->replicas; replica++) {
-        TRY(put(results, curve, "long_time_diffusion", species, unit, settled ? SETTLED : FALLING,
-                replica, slope(curve, replica, begin, curve->lags)));
+        TRY(put(results, curve, "long_time_diffusion", unit, settled ? SETTLED : FALLING, replica,
+                slope(curve, replica, begin, curve->lags)));
         TRY(put(
-            results, curve, "long_time_window", species, curve->series->axis[2].unit,
+            results, curve, "long_time_window", curve->series->axis[2].unit,
             "Start of the fit: over as long before it in log t the slope is the same within two "
             "standard errors; or else a quarter of the last lag.",
             replica, curve->times[begin]));
@@ -139,31 +143,70 @@ static Status put_long(Results *results, const Curve *curve, const char *species
     return OK;
 }
 
-// One species; the last entry is all of them, and bears no name.
-static Status derive_species(Results *results, Curve *curve, const char *species) {
-    const bool brownian = strcmp(curve->series->axis[2].unit, "d^2/D0") == 0;
-    if (brownian) TRY(put_short(results, curve, species));
-    return put_long(results, curve, species, brownian ? "D0" : "d sqrt(kT/m)");
+static bool is_brownian(const ResultSeries *series) {
+    return strcmp(series->axis[2].unit, "d^2/D0") == 0;
+}
+
+static Status derive_curve(Results *results, const Curve *curve, bool short_too) {
+    const bool brownian = is_brownian(curve->series);
+    if (brownian && short_too) TRY(put_short(results, curve));
+    return put_long(results, curve, brownian ? "D0" : "d sqrt(kT/m)");
+}
+
+// The last species, which is all of them or the only one, bears no name.
+static void name_curve(Curve *curve, const ResultSeries *series, size_t species,
+                       const char *direction) {
+    const bool named = species + 1 < series->axis[0].count;
+    snprintf(curve->suffix, sizeof curve->suffix, "%s%s%s%s", direction ? "_" : "",
+             direction ? direction : "", named ? "_" : "",
+             named ? series->axis[0].labels[species] : "");
+}
+
+static Status new_weights(double **weights, const ResultAxis *time) {
+    TRY(NEW_ARRAY(*weights, time->count));
+    for (size_t k = 0; k < time->count; k++) {
+        (*weights)[k] = 1 / (time->values[k] * time->values[k]);
+    }
+    return OK;
+}
+
+static Curve curve_in(const Results *results, const ResultSeries *series, size_t row,
+                      double *weights) {
+    return (Curve){.results = results,
+                   .series = series,
+                   .times = series->axis[2].values,
+                   .lags = series->axis[2].count,
+                   .row = row,
+                   .dimensions = 1,
+                   .weights = weights};
 }
 
 Status derive_diffusion(Results *results, const ResultSeries *series) {
     const size_t species = series->axis[0].count, directions = series->axis[1].count;
-    const ResultAxis *time = &series->axis[2];
-    if (time->count < HALF_LEAST) return OK;
+    if (series->axis[2].count < HALF_LEAST) return OK;
     double *weights = NULL;
-    TRY(NEW_ARRAY(weights, time->count));
-    for (size_t k = 0; k < time->count; k++) weights[k] = 1 / (time->values[k] * time->values[k]);
+    TRY(new_weights(&weights, &series->axis[2]));
     Status status = OK;
     for (size_t s = 0; status == OK && s < species; s++) {
-        Curve curve = {.results = results,
-                       .series = series,
-                       .times = time->values,
-                       .lags = time->count,
-                       .row = (s + 1) * directions - 1, // the last direction is the total
-                       .dimensions = (double)directions - 1,
-                       .weights = weights};
-        const char *name = s + 1 < species ? series->axis[0].labels[s] : NULL;
-        status = derive_species(results, &curve, name);
+        Curve curve = curve_in(results, series, (s + 1) * directions - 1, weights);
+        curve.dimensions = (double)directions - 1; // the last direction is the total
+        name_curve(&curve, series, s, NULL);
+        status = derive_curve(results, &curve, true);
+    }
+    memory_free(weights);
+    return status;
+}
+
+Status derive_directional_diffusion(Results *results, const ResultSeries *series) {
+    const size_t species = series->axis[0].count, directions = series->axis[1].count;
+    if (series->axis[2].count < HALF_LEAST) return OK;
+    double *weights = NULL;
+    TRY(new_weights(&weights, &series->axis[2]));
+    Status status = OK;
+    for (size_t row = 0; status == OK && row < species * directions; row++) {
+        Curve curve = curve_in(results, series, row, weights);
+        name_curve(&curve, series, row / directions, series->axis[1].labels[row % directions]);
+        status = derive_curve(results, &curve, false);
     }
     memory_free(weights);
     return status;

@@ -6,7 +6,6 @@
 #include "numerics/pade.h"
 
 #include <math.h>
-#include <stdbool.h>
 
 static const Body disc = {.shape = SHAPE_DISC, .diameter = 1};
 static const Body sphere = {.shape = SHAPE_SPHERE, .diameter = 1};
@@ -83,6 +82,14 @@ double equation_second_virial(const System *system) {
         return 1 + density * shape_second_virial(&disc, &disc) * (m[2] + square(m[1])) / 2;
     }
     return 1 + density * shape_second_virial(&sphere, &sphere) * (m[3] + 3 * m[1] * m[2]) / 4;
+}
+
+bool equation_of_state_known(const System *system) {
+    for (size_t s = 0; s < system->species_count; s++) {
+        const int64_t shape = system->species[s].shape;
+        if (shape != SHAPE_DISC && shape != SHAPE_SPHERE) return false;
+    }
+    return true;
 }
 
 EquationOfState equation_of_state(const System *system) {

@@ -4,6 +4,8 @@
 
 #include "state/system.h"
 
+#include <stdbool.h>
+
 // Equal discs at packing fraction eta.
 // Henderson, Mol. Phys. 30, 971 (1975).
 double equation_henderson(double eta);
@@ -37,6 +39,7 @@ typedef struct EquationOfState {
 } EquationOfState;
 
 EquationOfState equation_of_state(const System *system);
+bool equation_of_state_known(const System *system); // hard discs and spheres only
 
 // Collisions per particle and time of flight that this pressure means, each counted for both
 // partners, in sqrt(kT/m)/d; of a mixture as if all particles had the mean diameter and mass 1.

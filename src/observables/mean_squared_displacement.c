@@ -9,6 +9,7 @@
 #include "observables/put.h"
 
 #include <math.h>
+#include <string.h>
 
 typedef struct MsdSettings {
     LagSettings lags;
@@ -177,6 +178,28 @@ static Status put(const Msd *msd, const Labels *species, double *values, double 
                                replica, values);
 }
 
+// Of Monte Carlo, which goes by the diffusion tensors: orientations average them.
+static Status put_free_diffusion(const Msd *msd, const State *state, const Labels *species,
+                                 Results *results, size_t replica) {
+    const System *system = &state->system;
+    double values[SPECIES_MOST + 1] = {0};
+    for (size_t s = 0; s < msd->species_count; s++) {
+        const Diffusion free = species_diffusion(&system->species[s]);
+        values[s] = diffusion_mean(&free, msd->dimension) / system_reference_diffusion(system);
+        if (species->count > msd->species_count) {
+            values[msd->species_count] +=
+                values[s] * (double)msd->population[s] / (double)msd->particles;
+        }
+    }
+    const ResultSeries shape = {
+        .unit = "D0",
+        .about = "Diffusion coefficient of each species alone, mean over directions.",
+        .axes = 1,
+        .axis = {
+            {.name = "species", .unit = "", .count = species->count, .labels = species->names}}};
+    return observer_put_series(&msd->observer, "free_diffusion", &shape, results, replica, values);
+}
+
 static Status write(const Observer *observer, const State *state, Results *results,
                     size_t replica) {
     const Msd *msd = (const Msd *)observer;
@@ -187,6 +210,10 @@ static Status write(const Observer *observer, const State *state, Results *resul
         NEW_ARRAY(values, species.count * ((size_t)msd->dimension + 1) * msd->history.lags.count);
     if (status == OK) status = NEW_ARRAY(times, msd->history.lags.count);
     if (status == OK) status = put(msd, &species, values, times, results, replica);
+    const bool tensors = !observer->clock.flies && strcmp(observer->clock.unit, "d^2/D0") == 0;
+    if (status == OK && tensors) {
+        status = put_free_diffusion(msd, state, &species, results, replica);
+    }
     memory_free(values);
     memory_free(times);
     return status;

@@ -234,6 +234,143 @@ START_TEST(contact_value_of_an_exponential_is_found) {
 }
 END_TEST
 
+// Series of bodies with an axis: `rows` along the middle axis, each from a function of time, with
+// noise of its own in every replica.
+static Results *series_of_bodies(const char *observable, const System *system, size_t rows,
+                                 double (*value)(size_t row, double t), double noise) {
+    static const char *const names[] = {"plate", "rod", "all"};
+    static const char *const of_rows[] = {"first", "second", "third", "fourth"};
+    double times[LAGS], values[3 * 4 * LAGS];
+    const size_t labels = system->species_count > 1 ? 3 : 1;
+    for (int k = 0; k < LAGS; k++) times[k] = 1e-3 * pow(10, k / 10.0);
+    const ResultSeries shape = {
+        .stage = "quiescent",
+        .axes = 3,
+        .axis = {{.name = "species", .unit = "", .count = labels, .labels = names},
+                 {.name = "row", .unit = "", .count = rows, .labels = of_rows},
+                 {.name = "time", .unit = "d^2/D0", .count = LAGS, .values = times}}};
+    ResultSeries named = shape;
+    strcpy(named.observable, observable);
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, REPLICAS), OK);
+    for (size_t r = 0; r < REPLICAS; r++) {
+        Rng rng = rng_open(KEY, STREAM_VELOCITY, r, 1);
+        for (size_t i = 0; i < labels * rows * LAGS; i++) {
+            values[i] = value(i / LAGS % rows, times[i % LAGS]) + noise * rng_normal(&rng);
+        }
+        ck_assert_int_eq(results_put_series(results, &named, r, values), OK);
+    }
+    return results;
+}
+
+// Fast at first, then with tau = 0.8 (P1); with tau = 0.3 to a plateau of 0.16 (P2).
+static double relaxing(size_t row, double t) {
+    if (row == 0) return 0.3 * exp(-t / 0.02) + 0.7 * exp(-t / 0.8);
+    return 0.16 + 0.84 * exp(-t / 0.3);
+}
+
+START_TEST(relaxation_times_are_those_of_the_late_decay) {
+    const System system = oriented_system(1000, 1);
+    Results *results = series_of_bodies("orientation_correlation", &system, 2, relaxing, 0.004);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    static const struct {
+        const char *name;
+        double value, precision;
+    } expected[] = {{"relaxation_time_P1", 0.8, 0.01},
+                    {"relaxation_time_P2", 0.3, 0.01},
+                    {"orientation_plateau", 0.16, 0.002}};
+    for (int i = 0; i < 3; i++) {
+        const double error = error_of(results, "quiescent", expected[i].name);
+        ck_assert_double_eq_tol(scalar_of(results, "quiescent", expected[i].name),
+                                expected[i].value, 4 * error);
+        ck_assert_double_lt(error, expected[i].precision);
+        ck_assert_double_gt(error, 0);
+    }
+    results_free(results);
+}
+END_TEST
+
+static double frozen(size_t row, double t) {
+    return row == 0 ? exp(-t / 1000) : 0.8 + 0.2 * exp(-t / 0.3);
+}
+
+START_TEST(what_has_not_relaxed_has_no_relaxation_time) {
+    const System system = oriented_system(1000, 1);
+    Results *results = series_of_bodies("orientation_correlation", &system, 2, frozen, 1e-4);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    ck_assert_ptr_null(results_find_scalar(results, "quiescent", "relaxation_time_P1"));
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "relaxation_time_P2"), 0.3, 0.01);
+    results_free(results);
+}
+END_TEST
+
+static double bent(size_t row, double t) {
+    static const double late[] = {0.2, 0.5, 0.3, 0.7};
+    return 2 * late[row] * t + 0.1 * (1 - exp(-t / 0.05)) * (1 + 0.0001 * sin(1e5 * t));
+}
+
+START_TEST(every_direction_has_its_long_time_diffusion) {
+    const System system = oriented_system(1000, 2);
+    Results *results = series_of_bodies("directional_displacement", &system, 4, bent, 1e-4);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    static const double late[] = {0.2, 0.5, 0.3, 0.7};
+    static const char *const names[] = {"long_time_diffusion_first", "long_time_diffusion_second",
+                                        "long_time_diffusion_third_rod",
+                                        "long_time_diffusion_fourth_plate"};
+    for (int i = 0; i < 4; i++) {
+        ck_assert_double_eq_tol(scalar_of(results, "quiescent", names[i]), late[i], 2e-3);
+    }
+    results_free(results);
+}
+END_TEST
+
+static double nothing(size_t row, double t) {
+    (void)row;
+    (void)t;
+    return 0;
+}
+
+// A platelet has D_par = 1/8, D_perp = 3/16, D_rot = 3/4 in kT/(eta d), hence D0 = 1/6; 0.01 and 1
+// eta d^3/kT are 0.01/6 and 1/6 d^2/D0, tau_B/2 of Jabbari-Farouji and Trizac is 1/12.
+START_TEST(free_platelets_move_as_their_tensor_says) {
+    const System system = oriented_system(1000, 1);
+    Results *results = series_of_bodies("directional_displacement", &system, 4, nothing, 0);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    const ResultSeries *line = series_of(results, "quiescent", "free_directional_displacement");
+    const double *times = line->axis[2].values;
+    for (size_t k = 0; k < LAGS; k++) {
+        const double t = 6 * times[k]; // in eta d^3/kT
+        const double along = t / 3 + 4.0 / 3 * (0.125 - 0.1875) * (1 - exp(-4.5 * t)) / 4.5;
+        ck_assert_double_eq_tol(line->values[k], along, 1e-12 * along);
+        ck_assert_double_eq_tol(line->values[k] + 2 * line->values[LAGS + k], t, 1e-12 * t);
+        ck_assert_double_eq_tol(line->values[2 * LAGS + k], t / 3, 1e-12 * t);
+    }
+    results_free(results);
+    results = series_of_bodies("orientation_correlation", &system, 2, nothing, 0);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    line = series_of(results, "quiescent", "free_orientation_correlation");
+    times = line->axis[2].values;
+    for (size_t k = 0; k < LAGS; k++) {
+        ck_assert_double_eq_tol(line->values[k], pow(0.4723665527, 12 * times[k]), 1e-8);
+        ck_assert_double_eq_tol(line->values[LAGS + k], pow(0.4723665527, 36 * times[k]), 1e-8);
+    }
+    results_free(results);
+}
+END_TEST
+
+START_TEST(only_hard_discs_and_spheres_have_an_equation_of_state) {
+    const System rods = oriented_system(100, 2), soft = soft_system(100, 36);
+    const System spheres = system_of(3, 100, 0.3, 2);
+    ck_assert(!equation_of_state_known(&rods));
+    ck_assert(!equation_of_state_known(&soft));
+    ck_assert(equation_of_state_known(&spheres));
+    Results *results = contacts(7, 3);
+    ck_assert_int_eq(analysis_derive(results, &soft), OK);
+    ck_assert_ptr_null(results_find_scalar(results, "quiescent", "compressibility_factor_theory"));
+    results_free(results);
+}
+END_TEST
+
 START_TEST(deriving_twice_changes_nothing) {
     const System system = system_of(2, 1000, 0.7, 1);
     Results *results = displacements(0.05, 0.1, 0.1, 0.02, "d^2/D0");
@@ -261,6 +398,11 @@ int main(void) {
     tcase_add_test(c, newtonian_flight_has_no_brownian_short_time);
     tcase_add_test(c, heavier_species_diffuse_freely_in_proportion_less);
     tcase_add_loop_test(c, contact_value_of_an_exponential_is_found, 0, 4);
+    tcase_add_test(c, relaxation_times_are_those_of_the_late_decay);
+    tcase_add_test(c, what_has_not_relaxed_has_no_relaxation_time);
+    tcase_add_test(c, every_direction_has_its_long_time_diffusion);
+    tcase_add_test(c, free_platelets_move_as_their_tensor_says);
+    tcase_add_test(c, only_hard_discs_and_spheres_have_an_equation_of_state);
     tcase_add_test(c, deriving_twice_changes_nothing);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
