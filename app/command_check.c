@@ -2,8 +2,8 @@
 // perrin check FILE.yaml: reads a run file, says what would be run, and runs nothing.
 #include "command.h"
 
-#include "analysis/equation_of_state.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "config/config.h"
 #include "protocol/replica.h"
 
@@ -25,43 +25,46 @@ static void print_system(const System *system) {
     printf(" d\n");
 }
 
-// The thermostat gives every species D = kT Delta/(2 m), so that D_a/D0 = m_first/m_a.
 static void print_species(const System *system) {
     size_t counts[SPECIES_MOST];
     system_counts(system, counts);
-    printf("species   %-16s %10s %10s %10s %10s %10s\n", "", "number", "diameter/d", "spread",
-           "mass/m", "D/D0");
+    printf("species   %-16s %10s %10s %10s %10s\n", "", "number", "diameter/d", "spread", "mass/m");
     for (size_t s = 0; s < system->species_count; s++) {
         const Species *species = &system->species[s];
-        printf("          %-16s %10zu %10.6g %10.6g %10.6g %10.6g\n", species->name, counts[s],
+        printf("          %-16s %10zu %10.6g %10.6g %10.6g\n", species->name, counts[s],
                species->diameter, species->spread == SPREAD_NONE ? 0 : species->spread_width,
-               species->mass, system->species[0].mass / species->mass);
+               species->mass);
     }
 }
 
-static void print_thermostat(const Plan *plan, const Clock *clock) {
-    static const double MANY = 1; // collisions, with which flight in an interval is hardly free
-    const double interval = clock->flight_time * (double)clock->ticks_per_step;
-    const double collisions = equation_collision_rate(&plan->system) * interval;
-    printf("          %-16s D0 = %.6g d sqrt(kT/m)\n", "", clock->tick / clock->flight_time);
-    printf("          %-16s about %.2g collisions per particle and interval%s\n", "", collisions,
-           collisions > MANY ? ": long-time diffusion is biased, take a shorter one" : "");
+// What the method says of itself, line by line.
+static Status print_method(const Plan *plan, const Stage *stage) {
+    const Dynamics *dynamics = &stage->dynamics;
+    if (!dynamics->kind->describe) return OK;
+    Text lines = {0};
+    dynamics->kind->describe(&dynamics->settings, &plan->system, stage->time, &lines);
+    for (const char *line = text_words(&lines); *line; line += strcspn(line, "\n") + 1) {
+        printf("          %-16s %.*s\n", "", (int)strcspn(line, "\n"), line);
+    }
+    const Status status = text_status(&lines);
+    text_free(&lines);
+    return status;
 }
 
-// One interval, seen by both clocks, gives D0.
-static void print_stage(const Plan *plan, size_t index) {
+static Status print_stage(const Plan *plan, size_t index) {
     const Stage *stage = &plan->stages[index];
     const Clock clock = plan_clock(plan, index);
     const double steps = (double)(clock.ticks / clock.ticks_per_step);
     printf("stage     %-16s %s, %.6g %s in %.0f steps of %.6g\n", stage->name,
            stage->dynamics.kind->name, stage->time, clock.unit, steps,
            clock.tick * (double)clock.ticks_per_step);
-    if (clock.thermostatted) print_thermostat(plan, &clock);
+    TRY(print_method(plan, stage));
     if (stage->observation_count == 0) printf("          %-16s nothing\n", "  observes");
     for (size_t k = 0; k < stage->observation_count; k++) {
         printf("          %-16s %s\n", k == 0 ? "  observes" : "",
                stage->observations[k].kind->name);
     }
+    return OK;
 }
 
 static void print_seconds(double seconds) {
@@ -91,14 +94,15 @@ static void print_cost(const Plan *plan) {
     printf(" for all on %.0f cores, without packing\n", cores);
 }
 
-static void print_plan(const Plan *plan) {
+static Status print_plan(const Plan *plan) {
     if (plan->title[0] != '\0') printf("%s\n", plan->title);
     print_system(&plan->system);
     print_species(&plan->system);
-    for (size_t s = 0; s < plan->stage_count; s++) print_stage(plan, s);
+    for (size_t s = 0; s < plan->stage_count; s++) TRY(print_stage(plan, s));
     printf("ensemble  %lld replicas, seed %lld\n", (long long)plan->ensemble.replicas,
            (long long)plan->ensemble.seed);
     print_cost(plan);
+    return OK;
 }
 
 static Status print_written(const Plan *plan) {
@@ -122,7 +126,7 @@ static Status check(const Arguments *arguments) {
     if (argument_given(arguments, "all"))
         status = print_written(plan);
     else
-        print_plan(plan);
+        status = print_plan(plan);
     memory_free(plan);
     return status;
 }

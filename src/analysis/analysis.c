@@ -3,7 +3,7 @@
 #include "analysis/analysis.h"
 
 #include "analysis/derive.h"
-#include "analysis/equation_of_state.h"
+#include "state/equation_of_state.h"
 
 #include <stdio.h>
 #include <string.h>

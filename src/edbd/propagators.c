@@ -4,6 +4,7 @@
 #include "edbd/edbd.h"
 
 #include "base/memory.h"
+#include "state/equation_of_state.h"
 
 #include <math.h>
 
@@ -134,6 +135,22 @@ static double newtonian_seconds(const Settings *settings, const System *system) 
     return engine_seconds(newtonian(settings)->window, system);
 }
 
+// The thermostat gives every species D = kT Delta/(2 m), so that D_a/D0 = m_first/m_a.
+static void event_driven_describe(const Settings *settings, const System *system, double time,
+                                  Text *lines) {
+    static const double MANY = 1; // collisions, with which flight in an interval is hardly free
+    (void)time;
+    const double interval = event_driven(settings)->thermostat_interval;
+    const double collisions = equation_collision_rate(system) * interval;
+    text_add(lines, "D0 = %.6g d sqrt(kT/m)", interval / (2 * system->species[0].mass));
+    for (size_t s = 1; s < system->species_count; s++) {
+        const Species *species = &system->species[s];
+        text_add(lines, ", of %s %.4g D0", species->name, system->species[0].mass / species->mass);
+    }
+    text_add(lines, "\nabout %.2g collisions per particle and interval%s\n", collisions,
+             collisions > MANY ? ": long-time diffusion is biased, take a shorter one" : "");
+}
+
 static Status propagator_create(Propagator **out, const PropagatorKind *kind,
                                 const EngineSettings *settings, State *state, RngKey key) {
     EnginePropagator *propagator = NULL;
@@ -235,6 +252,7 @@ const PropagatorKind propagator_event_driven = {
     .ticks_per_step = event_driven_ticks,
     .seconds_per_particle_tick = event_driven_seconds,
     .memory = engine_memory,
+    .describe = event_driven_describe,
     .create = event_driven_create,
     .advance = advance,
     .free = release,

@@ -10,6 +10,9 @@ static void moves_archive(MoveTally *moves, Archive *archive) {
     archive_f64(archive, &moves->parallel, 1);
     archive_f64(archive, &moves->perpendicular, 1);
     archive_f64(archive, &moves->rotational, 1);
+    archive_f64(archive, &moves->free.parallel, 1);
+    archive_f64(archive, &moves->free.perpendicular, 1);
+    archive_f64(archive, &moves->free.rotational, 1);
 }
 
 static void moves_add(MoveTally *sum, const MoveTally *more) {
@@ -18,6 +21,9 @@ static void moves_add(MoveTally *sum, const MoveTally *more) {
     sum->parallel += more->parallel;
     sum->perpendicular += more->perpendicular;
     sum->rotational += more->rotational;
+    sum->free.parallel += more->free.parallel;
+    sum->free.perpendicular += more->free.perpendicular;
+    sum->free.rotational += more->free.rotational;
 }
 
 void tally_archive(Tally *tally, Archive *archive) {

@@ -7,13 +7,19 @@
 
 #include "state/system.h"
 
-// Trial moves of one species. Squares are summed over accepted moves: what the clocks compare with
-// free diffusion.
-typedef struct MoveTally {
-    uint64_t trials, accepted;
+// Squares of moves.
+typedef struct MoveSquares {
     double parallel;      // (displacement along the body axis)^2; of bodies without one, along x
     double perpendicular; // |displacement across it|^2, of both directions together; or along y, z
     double rotational;    // 1 - u'.u
+} MoveSquares;
+
+// Trial moves of one species, squares summed over the accepted ones, and what the sums would be on
+// average had all been accepted, as those of a free body are: the clocks compare the two.
+typedef struct MoveTally {
+    uint64_t trials, accepted;
+    double parallel, perpendicular, rotational; // see MoveSquares
+    MoveSquares free;
 } MoveTally;
 
 typedef struct Tally {

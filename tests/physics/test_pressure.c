@@ -5,7 +5,7 @@
 // (1961)), which is of the order -(Z - 1)/N and taken into account.
 #include "simulate.h"
 
-#include "analysis/equation_of_state.h"
+#include "state/equation_of_state.h"
 #include "base/constants.h"
 
 static const double SIGMAS = 4; // of ten replicas: two-sided p = 0.003 each, with fixed seeds

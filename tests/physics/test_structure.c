@@ -5,7 +5,7 @@
 
 #include "packing/packing.h"
 
-#include "analysis/equation_of_state.h"
+#include "state/equation_of_state.h"
 #include "base/constants.h"
 #include "numerics/fit.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Derived numbers from series whose answer is known, and equations of state against their values.
 #include "analysis/analysis.h"
-#include "analysis/equation_of_state.h"
+#include "state/equation_of_state.h"
 #include "base/constants.h"
 #include "observe.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Equations of state of hard discs and spheres.
-#include "analysis/equation_of_state.h"
+#include "state/equation_of_state.h"
 
 #include "base/constants.h"
 #include "numerics/pade.h"
