@@ -1,258 +1,194 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The chain of discs, spheres and soft spheres, one trial after the other by linked cells: plain
-// and slow.
-//
-// Positions are 32-bit fractions of the box edge, so that the integer difference of two is the
-// nearest image. Trial k draws words 4 (k mod 1024) ... + 3 of block k/1024: the displacement along
-// x, y, z and the particle; the word k mod 4096 of block 2^63 + k/4096 is for Metropolis' choice of
-// soft spheres. Energies are counted in whole units, so that no sum depends on its order.
-#include "dmc/chain.h"
+// The chain of discs, spheres and soft spheres: what it can move, how it takes in a State and gives
+// it back. The trials are in balls_kernel.h, the lists in balls_list.c.
+#include "dmc/balls.h"
 
 #include "base/memory.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { TRIALS_PER_BLOCK = RNG_BLOCK / 4 };
 static const uint64_t METROPOLIS_BLOCKS = 1ull << 63;
-static const double ENERGY_UNITS = 0x1p20; // per kT
-static const double ENERGY_MOST = 0x1p27;  // of a pair, in units: 128 kT
 static const double DEEPEST_NUDGED = 1e-6; // overlap that rounding of positions may explain
 static const int NUDGES_MOST = 1000;       // sweeps over all particles
-
-typedef struct Balls {
-    Chain chain;
-    ChainSettings settings;
-    State *state;
-    RngKey key;
-    bool soft;
-    int exponent;
-    double scale;
-    bool separate; // seen to be without overlaps at this scale
-    uint64_t corrected;
-    double unit[3];                 // length of a lattice step, in d
-    float step[SPECIES_MOST][3];    // half-width of the displacement, in halves of lattice steps
-    double normal[SPECIES_MOST][3]; // standard deviation, in lattice steps
-    double *radius;                 // [count], in d
-    uint32_t (*place)[3];           // [count]
-    int32_t (*image)[3];            // [count]
-    double reach;                   // beyond it no pair interacts, in d
-    int64_t cells[3];
-    int32_t *first, *next, *before, *cell_of; // doubly linked lists of the particles in each cell
-    uint64_t block, metropolis_block;         // whose words these are
-    uint32_t words[RNG_BLOCK], metropolis_words[RNG_BLOCK];
-    uint32_t ids[TRIALS_PER_BLOCK];
-    double normals[3][TRIALS_PER_BLOCK];
-} Balls;
+static const double EXPONENT_LEAST = 4, EXPONENT_MOST = 1000;
+static const double PARTICLES_MOST = 1 << 28;
+static const double SPREAD_REACH = 4; // standard deviations of diameters that must fit
 
 static Balls *balls_of(Chain *chain) {
     return (Balls *)chain;
 }
 
-// Neighbourhood.
-
-static int64_t cell_index(const Balls *balls, const int64_t at[3]) {
-    return (at[2] * balls->cells[1] + at[1]) * balls->cells[0] + at[0];
+// Contact times this is beyond where the energy of a pair rounds to nothing.
+static double reach_of(bool soft, double exponent) {
+    return soft ? exp2(21 / exponent) * 1.0001 : 1;
 }
 
-static void cell_at(const Balls *balls, const uint32_t place[3], int64_t at[3]) {
-    for (int a = 0; a < 3; a++) {
-        at[a] = (int64_t)((place[a] * (uint64_t)balls->cells[a]) >> 32);
+static Status check_species(const System *system, const Species *species) {
+    const Species *first = &system->species[0];
+    const bool soft = !shape_is_hard((ShapeKind)species->shape);
+    if (shape_is_oriented((ShapeKind)species->shape) ||
+        shape_dimension((ShapeKind)species->shape) != system->dimension) {
+        return status_fail(
+            BAD_DATA, "species '%s': a %s lives in %d dimensions, the system has %lld",
+            species->name, shape_names[species->shape], shape_dimension((ShapeKind)species->shape),
+            (long long)system->dimension);
     }
-}
-
-static void cell_enter(Balls *balls, size_t i) {
-    int64_t at[3];
-    cell_at(balls, balls->place[i], at);
-    const int64_t cell = cell_index(balls, at);
-    balls->cell_of[i] = (int32_t)cell;
-    balls->before[i] = -1;
-    balls->next[i] = balls->first[cell];
-    if (balls->next[i] >= 0) balls->before[balls->next[i]] = (int32_t)i;
-    balls->first[cell] = (int32_t)i;
-}
-
-static void cell_leave(Balls *balls, size_t i) {
-    const int32_t before = balls->before[i], next = balls->next[i];
-    if (before >= 0)
-        balls->next[before] = next;
-    else
-        balls->first[balls->cell_of[i]] = next;
-    if (next >= 0) balls->before[next] = before;
-}
-
-// Overlap, energy.
-
-// Of two places, in d; integers, so that it is the same seen from both.
-static void separation(const Balls *balls, const uint32_t a[3], const uint32_t b[3], double r[3]) {
-    for (int k = 0; k < 3; k++) r[k] = (double)(int32_t)(a[k] - b[k]) * balls->unit[k];
-}
-
-static double distance2(const Balls *balls, const uint32_t a[3], const uint32_t b[3]) {
-    double r[3];
-    separation(balls, a, b, r);
-    return r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
-}
-
-static bool overlap(const Balls *balls, size_t i, const uint32_t place[3], size_t j) {
-    const double contact = balls->radius[i] + balls->radius[j];
-    return distance2(balls, place, balls->place[j]) < contact * contact;
-}
-
-// In units, rounded; in single precision.
-static int32_t energy(const Balls *balls, size_t i, const uint32_t place[3], size_t j) {
-    const float contact = (float)balls->radius[i] + (float)balls->radius[j];
-    float r[3];
-    for (int k = 0; k < 3; k++) {
-        r[k] = (float)(int32_t)(place[k] - balls->place[j][k]) * (float)balls->unit[k];
+    if (species->shape != first->shape) {
+        return status_fail(
+            BAD_DATA, "species '%s' is a %s and '%s' a %s; hard and soft ones do not mix",
+            first->name, shape_names[first->shape], species->name, shape_names[species->shape]);
     }
-    const float y = contact * contact / (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
-    float power = balls->exponent & 1 ? sqrtf(y) : 1, square = y;
-    for (int n = balls->exponent / 2; n > 0; n /= 2, square *= square) {
-        if (n & 1) power *= square;
+    if (!soft) return OK;
+    if (!(species->exponent >= EXPONENT_LEAST && species->exponent <= EXPONENT_MOST) ||
+        species->exponent != rint(species->exponent)) {
+        return status_fail(BAD_DATA,
+                           "species '%s': exponent = %g must be a whole number from %g to %g",
+                           species->name, species->exponent, EXPONENT_LEAST, EXPONENT_MOST);
     }
-    power *= (float)ENERGY_UNITS;
-    return (int32_t)rintf(power < (float)ENERGY_MOST ? power : (float)ENERGY_MOST);
+    if (species->exponent == first->exponent) return OK;
+    return status_fail(BAD_DATA,
+                       "species '%s' and '%s' have the exponents %g and %g; soft spheres of one "
+                       "system have one exponent",
+                       first->name, species->name, first->exponent, species->exponent);
 }
-
-// Calls that a trial makes for all within reach of `place`: overlap with any, or the energy summed.
-static int64_t interaction(const Balls *balls, size_t i, const uint32_t place[3]) {
-    int64_t home[3], sum = 0;
-    cell_at(balls, place, home);
-    for (int64_t z = balls->cells[2] > 1 ? -1 : 0; z <= (balls->cells[2] > 1); z++) {
-        for (int64_t y = balls->cells[1] > 1 ? -1 : 0; y <= (balls->cells[1] > 1); y++) {
-            for (int64_t x = balls->cells[0] > 1 ? -1 : 0; x <= (balls->cells[0] > 1); x++) {
-                const int64_t step[3] = {x, y, z};
-                int64_t at[3];
-                for (int a = 0; a < 3; a++) {
-                    at[a] = (home[a] + step[a] + balls->cells[a]) % balls->cells[a];
-                }
-                int32_t j = balls->first[cell_index(balls, at)];
-                for (; j >= 0; j = balls->next[j]) {
-                    if ((size_t)j == i) continue;
-                    if (balls->soft)
-                        sum += energy(balls, i, place, (size_t)j);
-                    else if (overlap(balls, i, place, (size_t)j))
-                        return 1;
-                }
-            }
-        }
-    }
-    return sum;
-}
-
-// Places at first.
-
-static void take_in(Balls *balls) {
-    const State *state = balls->state;
-    for (size_t i = 0; i < state->count; i++) {
-        balls->radius[i] = state->diameter[i] / 2;
-        for (int a = 0; a < state->box.dimension; a++) {
-            const double fraction = state->position[a][i] / state->box.edge[a];
-            const int64_t place = (int64_t)rint(fraction * 0x1p32);
-            balls->place[i][a] = (uint32_t)place;
-            balls->image[i][a] = state->image[a][i] + (int32_t)(place >> 32);
-        }
-    }
-}
-
-static void choose_cells(Balls *balls) {
-    const State *state = balls->state;
-    const double room = box_volume(&state->box) / (double)state->count;
-    double largest = 0;
-    for (size_t i = 0; i < state->count; i++) largest = fmax(largest, state->diameter[i]);
-    balls->reach = balls->soft ? largest * exp2(21.0 / balls->exponent) * 1.001 : largest;
-    const double width =
-        fmax(balls->reach, state->box.dimension == 2 ? sqrt(room) : cbrt(room)) * 1.0001;
-    for (int a = 0; a < 3; a++) {
-        const double fit = a < state->box.dimension ? state->box.edge[a] / width : 1;
-        balls->cells[a] = fit < 3 ? 1 : (int64_t)fit;
-    }
-}
-
-// Moves i a lattice step away from j along the axis on which they are farthest apart.
-static void nudge(Balls *balls, size_t i, size_t j) {
-    double r[3];
-    separation(balls, balls->place[i], balls->place[j], r);
-    int axis = 0;
-    for (int a = 1; a < 3; a++) axis = fabs(r[a]) > fabs(r[axis]) ? a : axis;
-    const int64_t unfolded =
-        (int64_t)((uint64_t)(int64_t)balls->image[i][axis] << 32) + balls->place[i][axis];
-    const int64_t to = unfolded + (r[axis] < 0 ? -1 : 1);
-    cell_leave(balls, i);
-    balls->place[i][axis] = (uint32_t)to;
-    balls->image[i][axis] = (int32_t)(to >> 32);
-    cell_enter(balls, i);
-}
-
-static int64_t overlapped(const Balls *balls, size_t i) {
-    for (size_t j = 0; j < balls->state->count; j++) {
-        if (j != i && overlap(balls, i, balls->place[i], j)) return (int64_t)j;
-    }
-    return -1;
-}
-
-// Rounding may have pushed pairs that touched into each other by a lattice step or two: apart
-// again. Overlaps that rounding does not explain are refused.
-static Status separate(Balls *balls) {
-    if (balls->soft || balls->separate) return OK;
-    bool moved = true;
-    for (int sweep = 0; moved; sweep++) {
-        moved = false;
-        for (size_t i = 0; i < balls->state->count; i++) {
-            if (!interaction(balls, i, balls->place[i])) continue;
-            const size_t j = (size_t)overlapped(balls, i);
-            const double depth = 1 - sqrt(distance2(balls, balls->place[i], balls->place[j])) /
-                                         (balls->radius[i] + balls->radius[j]);
-            if (depth > DEEPEST_NUDGED || sweep >= NUDGES_MOST) {
-                return status_fail(UNHEALTHY,
-                                   "particles %zu and %zu overlap by %.3g of their distance at "
-                                   "contact: a Monte Carlo chain begins without overlaps",
-                                   i, j, depth);
-            }
-            nudge(balls, i, j);
-            balls->corrected += sweep == 0;
-            moved = true;
-        }
-    }
-    balls->separate = true;
-    return OK;
-}
-
-// The seam.
 
 static Status check(const System *system) {
-    (void)system;
-    return OK;
+    const Box box = system_box(system);
+    double largest = 0;
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Species *species = &system->species[s];
+        TRY(check_species(system, species));
+        const double spread =
+            species->spread == SPREAD_NONE ? 0 : SPREAD_REACH * species->spread_width;
+        largest = fmax(largest, species->diameter * (1 + spread));
+    }
+    const bool soft = !shape_is_hard((ShapeKind)system->species[0].shape);
+    const double reach = largest * reach_of(soft, system->species[0].exponent);
+    for (int a = 0; a < box.dimension; a++) {
+        if (box.edge[a] > 2 * reach) continue;
+        return status_fail(BAD_DATA,
+                           "the box is %.4g d long along %c, and particles interact up to %.4g d, "
+                           "more than half of it; take more particles",
+                           box.edge[a], "xyz"[a], reach);
+    }
+    if ((double)system->particles <= PARTICLES_MOST) return OK;
+    return status_fail(BAD_DATA, "particles = %lld is more than the Monte Carlo chain's %.0f",
+                       (long long)system->particles, PARTICLES_MOST);
 }
+
+// Making and freeing.
 
 static void balls_free(Chain *chain) {
     Balls *balls = balls_of(chain);
+    memory_free(balls->ball);
     memory_free(balls->radius);
-    memory_free(balls->place);
-    memory_free(balls->image);
+    memory_free(balls->radius_single);
+    memory_free(balls->coarse);
+    memory_free(balls->list);
     memory_free(balls->first);
-    memory_free(balls->next);
-    memory_free(balls->before);
-    memory_free(balls->cell_of);
+    memory_free(balls->found);
+    memory_free(balls->ids);
+    for (int a = 0; a < 3; a++) {
+        memory_free(balls->column[a]);
+        memory_free(balls->normals[a]);
+    }
     memory_free(balls);
 }
 
 static Status allocate(Balls *balls) {
-    const size_t count = balls->state->count;
-    const size_t cells = (size_t)(balls->cells[0] * balls->cells[1] * balls->cells[2]);
+    const size_t count = balls->count;
+    TRY(NEW_ARRAY(balls->ball, count));
     TRY(NEW_ARRAY(balls->radius, count));
-    TRY(NEW_ARRAY(balls->place, count));
-    TRY(NEW_ARRAY(balls->image, count));
-    TRY(NEW_ARRAY(balls->first, cells));
-    TRY(NEW_ARRAY(balls->next, count));
-    TRY(NEW_ARRAY(balls->before, count));
-    TRY(NEW_ARRAY(balls->cell_of, count));
-    for (size_t c = 0; c < cells; c++) balls->first[c] = -1;
+    TRY(NEW_ARRAY(balls->coarse, count));
+    TRY(NEW_ARRAY(balls->found, count + 1));
+    TRY(NEW_ARRAY(balls->radius_single, count));
+    for (int a = 0; a < 3 && balls->soft; a++) TRY(NEW_ARRAY(balls->column[a], count));
+    if (!balls->settings.gaussian) return OK;
+    TRY(NEW_ARRAY(balls->ids, TRIALS_PER_BLOCK));
+    for (uint32_t t = 0; t < TRIALS_PER_BLOCK; t++) balls->ids[t] = t;
+    for (int a = 0; a < 3; a++) TRY(NEW_ARRAY(balls->normals[a], TRIALS_PER_BLOCK));
     return OK;
 }
 
-static Status create(Chain **out, const ChainSettings *settings, State *state, RngKey key) {
+static void take_in(Balls *balls) {
+    const State *state = balls->state;
+    for (size_t i = 0; i < balls->count; i++) {
+        Ball *ball = &balls->ball[i];
+        ball->species = state->species_of[i];
+        for (int a = 0; a < balls->dimension; a++) {
+            const double fraction = state->position[a][i] / state->box.edge[a];
+            const int64_t place = (int64_t)rint(fraction * 0x1p32);
+            ball->place[a] = (uint32_t)place;
+            ball->image[a] = state->image[a][i] + (int32_t)(place >> 32);
+        }
+    }
+}
+
+static bool edges_are_equal(const State *state) {
+    for (int a = 1; a < state->box.dimension; a++) {
+        if (state->box.edge[a] != state->box.edge[0]) return false;
+    }
+    return true;
+}
+
+// How far coarse distances may be off, in coarse steps: a place is off by half a step, so each
+// coordinate of a difference by one; where edges or diameters differ by 1.75, as the products by
+// coarse_scale are rounded, and the sum of two radii by 1.25.
+static const double ALIKE_OFF = 1.7320509, SCALED_OFF = 3.0310890, RADII_OFF = 1.25;
+static const double COARSE_SCALE = 0.75; // of the longest edge: squares of distances fit 31 bits
+static const double RADIUS_SCALE = 24576.0 / 32768;
+
+static void set_coarse_bounds(Balls *balls) {
+    const double *edge = balls->state->box.edge;
+    double longest = 0;
+    for (int a = 0; a < balls->dimension; a++) longest = fmax(longest, edge[a]);
+    const double per_edge = balls->alike ? 0x1p16 : COARSE_SCALE * 0x1p16;
+    const double contact = balls->largest / longest * per_edge;
+    const double below = contact + ALIKE_OFF, sure = fmax(contact - ALIKE_OFF, 0);
+    balls->below = (uint32_t)(below * below) + 2;
+    balls->sure = (uint32_t)(sure * sure);
+    const double off = SCALED_OFF + RADII_OFF;
+    balls->doubt = (int32_t)(2 * off * contact + off * off) + 2;
+    for (int a = 0; a < balls->dimension; a++) {
+        balls->coarse_scale[a] = (int16_t)rint(0x1p15 * COARSE_SCALE * edge[a] / longest);
+    }
+    for (size_t i = 0; i < balls->count; i++) {
+        const double radius = balls->radius[i] / longest * per_edge / RADIUS_SCALE;
+        const uint64_t minus = (uint16_t) - (int32_t)rint(radius);
+        const Ball *ball = &balls->ball[i];
+        balls->coarse[i] = balls->alike ? 0 : minus << 48;
+        for (int a = 0; a < 3; a++) {
+            balls->coarse[i] |= (uint64_t)(uint16_t)((ball->place[a] + 0x8000) >> 16) << (16 * a);
+        }
+    }
+}
+
+// Sizes, and all that is made of sizes and places.
+static Status set_scale(Balls *balls, double scale) {
+    const State *state = balls->state;
+    balls->scale = scale;
+    balls->largest = 0;
+    balls->alike = edges_are_equal(state);
+    for (size_t i = 0; i < balls->count; i++) {
+        balls->radius[i] = state->diameter[i] / 2 * scale;
+        balls->radius_single[i] = (float)balls->radius[i];
+        balls->largest = fmax(balls->largest, 2 * balls->radius[i]);
+        balls->alike &= state->diameter[i] == state->diameter[0];
+        for (int a = 0; a < 3 && balls->soft; a++) balls->column[a][i] = balls->ball[i].place[a];
+    }
+    set_coarse_bounds(balls);
+    return balls_list(balls);
+}
+
+static const BallsKernel *kernel_for(CpuPath path) {
+    static const BallsKernel *const kernels[CPU_PATHS] = {&balls_kernel_portable,
+                                                          &balls_kernel_avx2, &balls_kernel_avx512};
+    return kernels[path];
+}
+
+Status balls_create_with(CpuPath path, Chain **out, const ChainSettings *settings, State *state,
+                         RngKey key) {
     const Species *species = &state->system.species[0];
     Balls *balls = NULL;
     TRY(NEW(balls));
@@ -260,148 +196,174 @@ static Status create(Chain **out, const ChainSettings *settings, State *state, R
                      .settings = *settings,
                      .state = state,
                      .key = key,
+                     .path = path,
+                     .kernel = kernel_for(path),
+                     .dimension = state->box.dimension,
+                     .count = state->count,
                      .soft = !shape_is_hard((ShapeKind)species->shape),
                      .exponent = (int)species->exponent,
-                     .scale = 1,
-                     .block = UINT64_MAX,
-                     .metropolis_block = UINT64_MAX};
-    for (int a = 0; a < state->box.dimension; a++) balls->unit[a] = state->box.edge[a] * 0x1p-32;
-    for (uint32_t t = 0; t < TRIALS_PER_BLOCK; t++) balls->ids[t] = t;
-    choose_cells(balls);
-    const Status status = allocate(balls);
+                     .block = UINT64_MAX};
+    balls->reach = reach_of(balls->soft, species->exponent);
+    for (int a = 0; a < balls->dimension; a++) {
+        balls->unit[a] = state->box.edge[a] * 0x1p-32;
+        balls->unit_single[a] = (float)balls->unit[a];
+    }
+    Status status = allocate(balls);
+    if (status == OK) {
+        take_in(balls);
+        status = set_scale(balls, 1);
+    }
     if (status != OK) {
         balls_free(&balls->chain);
         return status;
     }
-    take_in(balls);
-    for (size_t i = 0; i < state->count; i++) cell_enter(balls, i);
     *out = &balls->chain;
     return OK;
 }
 
+static Status create(Chain **out, const ChainSettings *settings, State *state, RngKey key) {
+    return balls_create_with(cpu_path(), out, settings, state, key);
+}
+
 static void set_amplitude(Chain *chain, size_t species, const Amplitude *amplitude) {
     Balls *balls = balls_of(chain);
-    for (int a = 0; a < balls->state->box.dimension; a++) {
+    for (int a = 0; a < balls->dimension; a++) {
         const double fraction = amplitude->parallel / balls->state->box.edge[a];
         balls->step[species][a] = (float)(2 * fraction);
         balls->normal[species][a] = fraction * 0x1p32 / sqrt(3);
     }
-}
-
-static void draw(Balls *balls, uint64_t trial) {
-    const uint64_t block = trial / TRIALS_PER_BLOCK, other = trial / RNG_BLOCK;
-    if (block != balls->block) {
-        rng_words(balls->key, balls->settings.stream, block, balls->words);
-        if (balls->settings.gaussian) {
-            rng_normals(
-                balls->key, balls->settings.stream, block, balls->ids, TRIALS_PER_BLOCK, 3,
-                (double *const[3]){balls->normals[0], balls->normals[1], balls->normals[2]});
-        }
-        balls->block = block;
+    balls->longest_of[species] = amplitude->parallel;
+    balls->longest = 0;
+    for (size_t s = 0; s < SPECIES_MOST; s++) {
+        balls->longest = fmax(balls->longest, balls->longest_of[s]);
     }
-    if (balls->soft && other != balls->metropolis_block) {
-        rng_words(balls->key, balls->settings.stream, METROPOLIS_BLOCKS + other,
-                  balls->metropolis_words);
-        balls->metropolis_block = other;
-    }
+    balls->block = UINT64_MAX;
+    balls->listed = false;
 }
 
-static int32_t displacement(const Balls *balls, size_t species, size_t t, int axis) {
-    if (balls->settings.gaussian) {
-        return (int32_t)rint(balls->normals[axis][t] * balls->normal[species][axis]);
-    }
-    const int32_t odd = (int32_t)(balls->words[4 * t + (size_t)axis] | 1);
-    return (int32_t)rintf((float)odd * balls->step[species][axis]);
-}
+// Overlaps.
 
-// -ln u in units, u = (word + 1/2)/2^32 = m 2^(e - 32) with sqrt(1/2) <= m < sqrt 2, by
-// ln m = 2 artanh((m - 1)/(m + 1)).
-static int64_t energy_affordable(uint32_t word) {
-    const double root_half = 0.70710678118654752440, ln_2 = 0.69314718055994530942;
-    int e = 32;
-    double m = ((double)word + 0.5) * 0x1p-32;
-    for (; m < root_half; m *= 2) e++;
-    const double s = (m - 1) / (m + 1), z = s * s;
-    double series = 0;
-    for (int k = 19; k >= 1; k -= 2) series = series * z + 2.0 / k;
-    return (int64_t)floor(((e - 32) * ln_2 - s * series) * ENERGY_UNITS);
-}
-
-static bool accept(const Balls *balls, size_t i, const uint32_t to[3], uint64_t trial) {
-    const int64_t after = interaction(balls, i, to);
-    if (!balls->soft) return after == 0;
-    const int64_t rise = after - interaction(balls, i, balls->place[i]);
-    return rise <= energy_affordable(balls->metropolis_words[trial % RNG_BLOCK]);
-}
-
-static void one_trial(Balls *balls, uint64_t trial, MoveTally *moves) {
-    draw(balls, trial);
-    const size_t t = trial % TRIALS_PER_BLOCK;
-    const size_t i = (size_t)((balls->words[4 * t + 3] * (uint64_t)balls->state->count) >> 32);
-    const size_t species = balls->state->species_of[i];
-    int64_t unfolded[3];
+// The place of i moves a lattice step away from j along the axis on which they are farthest apart.
+static void nudge(Balls *balls, uint32_t i, uint32_t j) {
+    Ball *ball = &balls->ball[i];
     double r[3];
-    uint32_t to[3];
+    int axis = 0;
     for (int a = 0; a < 3; a++) {
-        const int32_t step = displacement(balls, species, t, a);
-        r[a] = step * balls->unit[a];
-        unfolded[a] = balls->place[i][a] + (int64_t)step;
-        to[a] = (uint32_t)unfolded[a];
+        r[a] = (double)(int32_t)(ball->place[a] - balls->ball[j].place[a]) * balls->unit[a];
+        axis = fabs(r[a]) > fabs(r[axis]) ? a : axis;
     }
-    moves[species].trials++;
-    if (!accept(balls, i, to, trial)) return;
-    moves[species].accepted++;
-    moves[species].parallel += r[0] * r[0];
-    moves[species].perpendicular += r[1] * r[1] + r[2] * r[2];
-    cell_leave(balls, i);
-    for (int a = 0; a < 3; a++) balls->image[i][a] += (int32_t)(unfolded[a] >> 32);
-    memcpy(balls->place[i], to, sizeof to);
-    cell_enter(balls, i);
+    const bool down = r[axis] < 0;
+    ball->image[axis] += down ? -(ball->place[axis] == 0) : ball->place[axis] == UINT32_MAX;
+    ball->place[axis] += down ? UINT32_MAX : 1;
 }
 
-static Status run(Chain *chain, int64_t trials, Tally *tally) {
-    Balls *balls = balls_of(chain);
-    TRY(separate(balls));
-    tally->corrected += balls->corrected;
-    balls->corrected = 0;
-    for (int64_t k = 0; k < trials; k++) {
-        one_trial(balls, (uint64_t)balls->state->step, tally->moves);
-        balls->state->step++;
+static int64_t overlapped(const Balls *balls, uint32_t i) {
+    const uint32_t *list = balls->list + i * balls->room;
+    for (uint32_t n = 0; n < balls->ball[i].neighbours; n++) {
+        if (balls_overlap(balls, i, balls->ball[i].place, list[n])) return list[n];
     }
-    return OK;
+    return -1;
 }
 
-static void publish(Chain *chain) {
-    Balls *balls = balls_of(chain);
-    State *state = balls->state;
-    for (size_t i = 0; i < state->count; i++) {
-        for (int a = 0; a < state->box.dimension; a++) {
-            state->position[a][i] = balls->place[i][a] * balls->unit[a];
-            state->image[a][i] = balls->image[i][a];
+static Status refuse(const Balls *balls, uint32_t i, uint32_t j) {
+    const double r2 = balls_distance2(balls, balls->ball[i].place, balls->ball[j].place);
+    return status_fail(UNHEALTHY,
+                       "particles %u and %u overlap by %.3g of their distance at contact; a Monte "
+                       "Carlo chain begins without overlaps",
+                       i, j, 1 - sqrt(r2) / (balls->radius[i] + balls->radius[j]));
+}
+
+// Rounding may have pushed pairs that touched into each other by a lattice step or two: apart
+// again, and counted. Overlaps that rounding does not explain are refused.
+static Status separate(Balls *balls) {
+    bool moved = !balls->soft && !balls->separate, nudged = moved;
+    for (int sweep = 0; moved; sweep++) {
+        moved = false;
+        for (uint32_t i = 0; i < balls->count; i++) {
+            const int64_t j = overlapped(balls, i);
+            if (j < 0) continue;
+            const double contact = balls->radius[i] + balls->radius[j];
+            const double least = (1 - DEEPEST_NUDGED) * contact;
+            if (balls_distance2(balls, balls->ball[i].place, balls->ball[j].place) <
+                    least * least ||
+                sweep >= NUDGES_MOST) {
+                return refuse(balls, i, (uint32_t)j);
+            }
+            nudge(balls, i, (uint32_t)j);
+            balls->corrected += sweep == 0;
+            moved = true;
         }
     }
+    balls->separate = true;
+    if (nudged) set_coarse_bounds(balls);
+    return OK;
 }
 
 static bool rescale(Chain *chain, double scale) {
     Balls *balls = balls_of(chain);
     const double before = balls->scale;
-    const size_t count = balls->state->count;
-    for (size_t i = 0; i < count; i++) balls->radius[i] = balls->state->diameter[i] / 2 * scale;
-    bool free = true;
-    for (size_t i = 0; free && !balls->soft && i < count; i++) {
-        free = !interaction(balls, i, balls->place[i]);
+    bool free = set_scale(balls, scale) == OK;
+    for (uint32_t i = 0; free && !balls->soft && i < balls->count; i++) {
+        free = overlapped(balls, i) < 0;
     }
-    if (free) {
-        balls->scale = scale;
-        balls->separate = true;
-        return true;
+    balls->separate |= free;
+    if (!free) balls->listed = set_scale(balls, before) == OK;
+    return free;
+}
+
+// Trials.
+
+static void draw(Balls *balls, uint64_t block) {
+    uint32_t words[RNG_BLOCK], metropolis[RNG_BLOCK];
+    const uint64_t parts = RNG_BLOCK / TRIALS_PER_BLOCK;
+    const RngStream stream = balls->settings.stream;
+    rng_words_with(balls->path, balls->key, stream, block, words);
+    if (balls->soft) {
+        rng_words_with(balls->path, balls->key, stream, METROPOLIS_BLOCKS + block / parts,
+                       metropolis);
     }
-    for (size_t i = 0; i < count; i++) balls->radius[i] = balls->state->diameter[i] / 2 * before;
-    return false;
+    if (balls->settings.gaussian) {
+        rng_normals_with(balls->path, balls->key, stream, block, balls->ids, TRIALS_PER_BLOCK, 3,
+                         balls->normals);
+    }
+    balls->kernel->draw(balls, words, metropolis + block % parts * TRIALS_PER_BLOCK);
+    balls->block = block;
+}
+
+static Status run(Chain *chain, int64_t trials, Tally *tally) {
+    Balls *balls = balls_of(chain);
+    int64_t *step = &balls->state->step;
+    if (!balls->listed) TRY(balls_list(balls));
+    TRY(separate(balls));
+    for (const int64_t end = *step + trials; *step < end;) {
+        const uint64_t block = (uint64_t)*step / TRIALS_PER_BLOCK;
+        const size_t from = (size_t)*step % TRIALS_PER_BLOCK;
+        const int64_t most = TRIALS_PER_BLOCK - (int64_t)from;
+        const size_t count = (size_t)(end - *step < most ? end - *step : most);
+        if (block != balls->block) draw(balls, block);
+        if (!balls->kernel->run(balls, from, from + count, tally->moves)) return NO_MEMORY;
+        *step += (int64_t)count;
+    }
+    tally->rebuilds += balls->rebuilds;
+    tally->corrected += balls->corrected;
+    balls->rebuilds = balls->corrected = 0;
+    return OK;
+}
+
+static void publish(Chain *chain) {
+    const Balls *balls = balls_of(chain);
+    State *state = balls->state;
+    for (size_t i = 0; i < balls->count; i++) {
+        for (int a = 0; a < balls->dimension; a++) {
+            state->position[a][i] = balls->ball[i].place[a] * balls->unit[a];
+            state->image[a][i] = balls->ball[i].image[a];
+        }
+    }
 }
 
 static size_t memory(const System *system) {
-    return (size_t)system->particles * 64 + sizeof(Balls);
+    const size_t lists = 2 * NEIGHBOURS_AT_A_TIME * sizeof(uint32_t);
+    return (size_t)system->particles * (sizeof(Ball) + lists + 64) + sizeof(Balls);
 }
 
 const ChainKind chain_of_balls = {

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The inside of the chain of balls, for the files balls*.c only.
+//
+// What is exact, and alone decides: positions are 32-bit fractions of the box edge, so that the
+// integer difference of two is the nearest image and nothing is ever wrapped; two hard balls
+// overlap if their distance in double precision, from those integers, is below contact; energies of
+// soft ones are rounded to whole units and summed as integers, in any order. What is machinery:
+// lists, cells and the coarse copies of positions, 16 bits a coordinate, with which sixteen
+// neighbours are judged at a time; what they cannot judge is judged exactly.
+//
+// Trial k draws words 4 (k mod 1024) ... + 3 of block k/1024: the displacement along x, y, z and
+// the particle; soft ones word k mod 4096 of block 2^63 + k/4096, for Metropolis' choice.
+#pragma once
+
+#include "dmc/chain.h"
+
+enum {
+    TRIALS_PER_BLOCK = RNG_BLOCK / 4,
+    NEIGHBOURS_AT_A_TIME = 16,
+};
+static const uint32_t STRAYS = 1u << 31;   // in `who`: the trial goes farther than lists reach
+static const double ENERGY_UNITS = 0x1p20; // per kT
+static const double ENERGY_MOST = 0x1p27;  // of a pair, in units: 128 kT
+
+// One cache line.
+typedef struct Ball {
+    uint32_t place[4];  // fractions of the edges; 0
+    uint32_t anchor[4]; // place when its list was made
+    int32_t image[3];
+    uint32_t neighbours; // in its list
+    uint32_t species;
+    int32_t cell, next, before; // of the anchors in a cell, doubly linked
+} Ball;
+
+typedef struct Balls Balls;
+
+// One kernel per instruction set, the same source compiled for each.
+typedef struct BallsKernel {
+    // Words into particles, moves and energies; then the trials [from, to) of the block. `run`
+    // returns false when there was no memory for a list.
+    void (*draw)(Balls *balls, const uint32_t *words, const uint32_t *metropolis);
+    bool (*run)(Balls *balls, size_t from, size_t to, MoveTally *moves);
+} BallsKernel;
+extern const BallsKernel balls_kernel_portable, balls_kernel_avx2, balls_kernel_avx512;
+
+struct Balls {
+    Chain chain;
+    ChainSettings settings;
+    State *state;
+    RngKey key;
+    CpuPath path;
+    const BallsKernel *kernel;
+    int dimension;
+    size_t count;
+    bool soft;
+    bool alike;     // equal diameters and equal edges
+    int exponent;   // of soft spheres
+    double scale;   // of the diameters
+    double unit[3]; // length of a lattice step, in d
+    float unit_single[4];
+    float step[SPECIES_MOST][4];    // half-width of the displacement, in halves of lattice steps
+    double normal[SPECIES_MOST][3]; // its standard deviation, in lattice steps
+    double longest_of[SPECIES_MOST], longest; // half-widths of the species, and the largest, in d
+
+    Ball *ball;           // [count]
+    double *radius;       // [count], in d
+    double largest;       // diameter at this scale
+    uint64_t *coarse;     // [count] upper halves of the places, and minus the radius, 16 bits each
+    uint32_t below, sure; // `alike`: square of a coarse distance from which on nothing overlaps;
+                          // below which all does
+    int32_t doubt;        // else: bound of the error of (distance^2 - contact^2)
+    int16_t coarse_scale[3];
+    uint32_t *column[3];  // [count] of soft ones: places
+    float *radius_single; // [count] of soft ones
+
+    bool listed;    // lists and cells are those of this skin and scale
+    bool separate;  // seen to be without overlaps at this scale
+    double reach;   // contact times this: the range of the interaction
+    double skin;    // in d
+    double stride;  // longest displacement that the lists allow, in d
+    float leash2;   // square of how far from its anchor a particle may come before a trial, in d^2
+    size_t room;    // of each list, a multiple of NEIGHBOURS_AT_A_TIME
+    uint32_t *list; // [count][room], filled up with a repeated neighbour
+    int64_t cells[3];
+    int32_t *first; // [cells_most] of each cell, or -1
+    size_t cells_most;
+    uint32_t *found; // [count] room for a search
+
+    uint64_t block;                                 // whose trials are drawn; UINT64_MAX: none
+    uint32_t who[TRIALS_PER_BLOCK + 8];             // particle, and perhaps STRAYS
+    _Alignas(64) int32_t move[TRIALS_PER_BLOCK][4]; // in lattice steps; 0
+    int32_t affordable[TRIALS_PER_BLOCK];           // -ln of a uniform number, in energy units
+    double *normals[3];                             // [TRIALS_PER_BLOCK]
+    uint32_t *ids;                                  // 0, 1, ...
+    uint64_t rebuilds, corrected;
+};
+
+// The chain on a given instruction set, which the processor must have: for tests, benches.
+Status balls_create_with(CpuPath path, Chain **out, const ChainSettings *settings, State *state,
+                         RngKey key);
+
+// All lists anew. Chooses the skin.
+Status balls_list(Balls *balls);
+// The list of one particle, and its place in those of others; false: no memory.
+bool balls_refresh(Balls *balls, uint32_t i);
+// Does anything overlap a particle at `place`? By cells, whatever the distance.
+bool balls_overlap_anywhere(const Balls *balls, uint32_t i, const uint32_t place[3]);
+int64_t balls_energy_anywhere(const Balls *balls, uint32_t i, const uint32_t place[3]);
+
+static inline double balls_distance2(const Balls *balls, const uint32_t a[3], const uint32_t b[3]) {
+    double r[3];
+    for (int k = 0; k < 3; k++) r[k] = (double)(int32_t)(a[k] - b[k]) * balls->unit[k];
+    return r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
+}
+
+// The rule.
+static inline bool balls_overlap(const Balls *balls, uint32_t i, const uint32_t place[3],
+                                 uint32_t j) {
+    const double contact = balls->radius[i] + balls->radius[j];
+    return balls_distance2(balls, place, balls->ball[j].place) < contact * contact;
+}
+
+// The rule, in single precision: (d/r)^n in units, rounded; the same from both.
+static inline int32_t balls_energy(const Balls *balls, uint32_t i, const uint32_t place[3],
+                                   uint32_t j) {
+    const float contact = balls->radius_single[i] + balls->radius_single[j];
+    float r[3];
+    for (int k = 0; k < 3; k++) {
+        r[k] = (float)(int32_t)(place[k] - balls->ball[j].place[k]) * balls->unit_single[k];
+    }
+    const float y = contact * contact / (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+    float power = balls->exponent & 1 ? __builtin_sqrtf(y) : 1, square = y;
+    for (int n = balls->exponent / 2; n > 0; n /= 2, square *= square) {
+        if (n & 1) power *= square;
+    }
+    power *= (float)ENERGY_UNITS;
+    return (int32_t)__builtin_rintf(power < (float)ENERGY_MOST ? power : (float)ENERGY_MOST);
+}

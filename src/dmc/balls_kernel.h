@@ -1,0 +1,443 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The hot loop of the chain of balls, compiled once per instruction set; all give the same bits,
+// because integers and the rules of balls.h decide.
+#pragma once
+
+#include "dmc/balls.h"
+
+#include <math.h>
+#include <string.h>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+#define KERNEL static inline __attribute__((always_inline))
+
+// The trials of a block, drawn together.
+
+KERNEL uint32_t particle_of(const Balls *balls, uint32_t word) {
+    return (uint32_t)((word * (uint64_t)balls->count) >> 32);
+}
+
+// A word made odd is an integer distributed evenly about 0, and so is its product, rounded: a step
+// and its opposite are equally likely.
+KERNEL void draw_uniform(Balls *balls, const uint32_t *words) {
+    for (size_t t = 0; t < TRIALS_PER_BLOCK; t++) {
+        const float *step = balls->step[balls->ball[balls->who[t]].species];
+#if defined(__x86_64__)
+        const __m128i odd =
+            _mm_or_si128(_mm_loadu_si128((const __m128i *)(words + 4 * t)), _mm_set1_epi32(1));
+        const __m128 moved = _mm_mul_ps(_mm_cvtepi32_ps(odd), _mm_loadu_ps(step));
+        _mm_store_si128((__m128i *)balls->move[t], _mm_cvtps_epi32(moved));
+#else
+        for (int a = 0; a < 4; a++) {
+            const int32_t odd = (int32_t)(words[4 * t + (size_t)a] | 1);
+            balls->move[t][a] = (int32_t)rintf((float)odd * step[a]);
+        }
+#endif
+    }
+}
+
+KERNEL void draw_normal(Balls *balls) {
+    for (size_t t = 0; t < TRIALS_PER_BLOCK; t++) {
+        const double *width = balls->normal[balls->ball[balls->who[t]].species];
+        double length2 = 0;
+        for (int a = 0; a < balls->dimension; a++) {
+            balls->move[t][a] = (int32_t)rint(balls->normals[a][t] * width[a]);
+            const double r = balls->move[t][a] * balls->unit[a];
+            length2 += r * r;
+        }
+        if (length2 > balls->stride * balls->stride) balls->who[t] |= STRAYS;
+    }
+}
+
+// Uniform steps are all shorter than the lists allow, or, if they are very long, perhaps none.
+KERNEL void mark_strays(Balls *balls) {
+    if (balls->longest * sqrt(balls->dimension) < balls->stride) return;
+    for (size_t t = 0; t < TRIALS_PER_BLOCK; t++) {
+        double length2 = 0;
+        for (int a = 0; a < balls->dimension; a++) {
+            const double r = balls->move[t][a] * balls->unit[a];
+            length2 += r * r;
+        }
+        if (length2 > balls->stride * balls->stride) balls->who[t] |= STRAYS;
+    }
+}
+
+// -ln u in energy units, rounded down, for u = (word + 1/2)/2^32: with 2^32 u = m 2^e, sqrt(1/2) <=
+// m < sqrt 2, by ln m = 2 artanh((m - 1)/(m + 1)).
+KERNEL void draw_energies(Balls *balls, const uint32_t *words) {
+    const double ln_2 = 0.69314718055994530942;
+    const int64_t root_half = 0x3fe6a09e667f3bcc; // bits of sqrt(1/2)
+    for (size_t t = 0; t < TRIALS_PER_BLOCK; t++) {
+        const double x = (double)words[t] + 0.5;
+        int64_t bits;
+        memcpy(&bits, &x, sizeof bits);
+        const int64_t above = bits - root_half, e = above >> 52;
+        bits -= above & ~((1ll << 52) - 1);
+        double m;
+        memcpy(&m, &bits, sizeof m);
+        const double s = (m - 1) / (m + 1), z = s * s;
+        double series = 2.0 / 19;
+        for (int k = 17; k >= 1; k -= 2) series = series * z + 2.0 / k;
+        balls->affordable[t] =
+            (int32_t)(((double)(int32_t)(32 - e) * ln_2 - s * series) * ENERGY_UNITS);
+    }
+}
+
+KERNEL void draw(Balls *balls, const uint32_t *words, const uint32_t *metropolis) {
+    for (size_t t = 0; t < TRIALS_PER_BLOCK; t++) {
+        balls->who[t] = particle_of(balls, words[4 * t + 3]);
+    }
+    if (balls->settings.gaussian) {
+        draw_normal(balls);
+    } else {
+        draw_uniform(balls, words);
+        mark_strays(balls);
+    }
+    if (balls->soft) draw_energies(balls, metropolis);
+}
+
+// Hard balls.
+
+// Coarse place of a trial, with plus the radius of the particle: the difference to a neighbour's
+// has the sum of the radii.
+KERNEL uint64_t coarse_trial(uint64_t own, const uint32_t to[4]) {
+    uint64_t coarse = (own >> 48 ? (0x10000 - (own >> 48)) << 48 : 0);
+    for (int a = 0; a < 3; a++) {
+        coarse |= (uint64_t)(uint16_t)((to[a] + 0x8000) >> 16) << (16 * a);
+    }
+    return coarse;
+}
+
+// One bit for each of sixteen neighbours.
+typedef struct Judged {
+    unsigned near; // it may overlap
+    unsigned sure; // it does
+} Judged;
+
+#if defined(__AVX512F__)
+
+KERNEL __m512i rows_of(const Balls *balls, const uint32_t *ids) {
+    return _mm512_i32gather_epi64(_mm256_loadu_si256((const __m256i *)ids),
+                                  (const void *)balls->coarse, 8);
+}
+
+// Sums of the four products of each row, of two times eight rows.
+KERNEL __m512i sums_of(__m512i low, __m512i high) {
+    const __m512 a = (__m512)low, b = (__m512)high;
+    return _mm512_add_epi32((__m512i)_mm512_shuffle_ps(a, b, 0x88),
+                            (__m512i)_mm512_shuffle_ps(a, b, 0xdd));
+}
+
+KERNEL Judged judge(const bool alike, const Balls *balls, uint64_t trial, const uint32_t *ids) {
+    const __m512i own = _mm512_set1_epi64((int64_t)trial);
+    __m512i low = _mm512_sub_epi16(own, rows_of(balls, ids));
+    __m512i high = _mm512_sub_epi16(own, rows_of(balls, ids + 8));
+    if (alike) {
+        const __m512i r2 = sums_of(_mm512_madd_epi16(low, low), _mm512_madd_epi16(high, high));
+        return (Judged){_mm512_cmplt_epu32_mask(r2, _mm512_set1_epi32((int)balls->below)),
+                        _mm512_cmplt_epu32_mask(r2, _mm512_set1_epi32((int)balls->sure))};
+    }
+    const int16_t *f = balls->coarse_scale;
+    const uint64_t scale =
+        (uint64_t)(uint16_t)f[0] | (uint64_t)(uint16_t)f[1] << 16 | (uint64_t)(uint16_t)f[2] << 32;
+    const __m512i plus = _mm512_set1_epi64((int64_t)(scale | 24576ull << 48));
+    const __m512i minus = _mm512_set1_epi64((int64_t)(scale | (65536ull - 24576) << 48));
+    const __m512i q = sums_of(
+        _mm512_madd_epi16(_mm512_mulhrs_epi16(low, plus), _mm512_mulhrs_epi16(low, minus)),
+        _mm512_madd_epi16(_mm512_mulhrs_epi16(high, plus), _mm512_mulhrs_epi16(high, minus)));
+    return (Judged){_mm512_cmplt_epi32_mask(q, _mm512_set1_epi32(balls->doubt)),
+                    _mm512_cmplt_epi32_mask(q, _mm512_set1_epi32(-balls->doubt))};
+}
+
+#elif defined(__AVX2__)
+
+KERNEL __m256i rows_of(const Balls *balls, const uint32_t *ids) {
+    return _mm256_i32gather_epi64((const void *)balls->coarse,
+                                  _mm_loadu_si128((const __m128i *)ids), 8);
+}
+
+KERNEL __m256i sums_of(__m256i low, __m256i high) {
+    const __m256 a = (__m256)low, b = (__m256)high;
+    return _mm256_add_epi32((__m256i)_mm256_shuffle_ps(a, b, 0x88),
+                            (__m256i)_mm256_shuffle_ps(a, b, 0xdd));
+}
+
+KERNEL unsigned bits_below(__m256i x, int32_t bound) {
+    return (unsigned)_mm256_movemask_ps((__m256)_mm256_cmpgt_epi32(_mm256_set1_epi32(bound), x));
+}
+
+// The lanes are in another order than the neighbours: bit b is neighbour ORDER[b] of eight.
+KERNEL Judged judge(const bool alike, const Balls *balls, uint64_t trial, const uint32_t *ids) {
+    const __m256i own = _mm256_set1_epi64x((int64_t)trial);
+    const __m256i flip = _mm256_set1_epi32(INT32_MIN); // compares as if unsigned
+    const int16_t *f = balls->coarse_scale;
+    const uint64_t scale =
+        (uint64_t)(uint16_t)f[0] | (uint64_t)(uint16_t)f[1] << 16 | (uint64_t)(uint16_t)f[2] << 32;
+    const __m256i plus = _mm256_set1_epi64x((int64_t)(scale | 24576ull << 48));
+    const __m256i minus = _mm256_set1_epi64x((int64_t)(scale | (65536ull - 24576) << 48));
+    Judged judged = {0, 0};
+    for (int half = 0; half < 2; half++) {
+        const __m256i low = _mm256_sub_epi16(own, rows_of(balls, ids + 8 * half));
+        const __m256i high = _mm256_sub_epi16(own, rows_of(balls, ids + 8 * half + 4));
+        if (alike) {
+            const __m256i r2 = _mm256_xor_si256(
+                sums_of(_mm256_madd_epi16(low, low), _mm256_madd_epi16(high, high)), flip);
+            judged.near |= bits_below(r2, (int32_t)(balls->below ^ 0x80000000)) << (8 * half);
+            judged.sure |= bits_below(r2, (int32_t)(balls->sure ^ 0x80000000)) << (8 * half);
+        } else {
+            const __m256i q = sums_of(
+                _mm256_madd_epi16(_mm256_mulhrs_epi16(low, plus), _mm256_mulhrs_epi16(low, minus)),
+                _mm256_madd_epi16(_mm256_mulhrs_epi16(high, plus),
+                                  _mm256_mulhrs_epi16(high, minus)));
+            judged.near |= bits_below(q, balls->doubt) << (8 * half);
+            judged.sure |= bits_below(q, -balls->doubt) << (8 * half);
+        }
+    }
+    return judged;
+}
+
+#else
+
+// Without vectors the coarse distances gain nothing: each neighbour is judged exactly.
+KERNEL Judged judge(const bool alike, const Balls *balls, uint64_t trial, const uint32_t *ids) {
+    (void)ids, (void)trial, (void)balls, (void)alike;
+    return (Judged){0xffff, 0};
+}
+
+#endif
+
+// Which neighbour of sixteen a bit means: the sums of AVX registers come in blocks of two rows.
+KERNEL size_t neighbour_of_bit(unsigned bit) {
+#if defined(__AVX512F__)
+    static const unsigned char order[16] = {0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15};
+    return order[bit];
+#elif defined(__AVX2__)
+    static const unsigned char order[16] = {0, 1, 4, 5, 2, 3, 6, 7, 8, 9, 12, 13, 10, 11, 14, 15};
+    return order[bit];
+#else
+    return bit;
+#endif
+}
+
+KERNEL bool overlaps(const bool alike, const Balls *balls, uint32_t i, const uint32_t to[4],
+                     uint64_t trial) {
+    const uint32_t *list = balls->list + i * balls->room;
+    const uint32_t neighbours = balls->ball[i].neighbours;
+    for (size_t n = 0; n < neighbours; n += NEIGHBOURS_AT_A_TIME) {
+        const Judged judged = judge(alike, balls, trial, list + n);
+        if (!judged.near) continue;
+        if (judged.sure) return true;
+        for (unsigned bits = judged.near; bits; bits &= bits - 1) {
+            const size_t k = neighbour_of_bit((unsigned)__builtin_ctz(bits));
+            if (balls_overlap(balls, i, to, list[n + k])) return true;
+        }
+    }
+    return false;
+}
+
+// Soft balls.
+
+#if defined(__AVX512F__)
+
+KERNEL __m512 square_of(const Balls *balls, const __m512i at[3], const uint32_t place[4]) {
+    __m512 r2 = _mm512_setzero_ps();
+    for (int a = 0; a < 3; a++) {
+        const __m512i apart = _mm512_sub_epi32(_mm512_set1_epi32((int)place[a]), at[a]);
+        const __m512 r =
+            _mm512_mul_ps(_mm512_cvtepi32_ps(apart), _mm512_set1_ps(balls->unit_single[a]));
+        r2 = a == 0 ? _mm512_mul_ps(r, r) : _mm512_add_ps(r2, _mm512_mul_ps(r, r));
+    }
+    return r2;
+}
+
+KERNEL __m512i energies(const Balls *balls, __m512 contact2, __m512 r2) {
+    const __m512 y = _mm512_div_ps(contact2, r2);
+    __m512 power = balls->exponent & 1 ? _mm512_sqrt_ps(y) : _mm512_set1_ps(1), square = y;
+    for (int n = balls->exponent / 2; n > 0; n /= 2) {
+        if (n & 1) power = _mm512_mul_ps(power, square);
+        square = _mm512_mul_ps(square, square);
+    }
+    power = _mm512_mul_ps(power, _mm512_set1_ps((float)ENERGY_UNITS));
+    return _mm512_cvtps_epi32(_mm512_min_ps(power, _mm512_set1_ps((float)ENERGY_MOST)));
+}
+
+KERNEL int64_t sum_of(__m512i x) {
+    return _mm512_reduce_add_epi64(
+        _mm512_add_epi64(_mm512_cvtepi32_epi64(_mm512_castsi512_si256(x)),
+                         _mm512_cvtepi32_epi64(_mm512_extracti64x4_epi64(x, 1))));
+}
+
+KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4]) {
+    const uint32_t *list = balls->list + i * balls->room;
+    const Ball *ball = &balls->ball[i];
+    const __m512 radius = _mm512_set1_ps(balls->radius_single[i]);
+    int64_t rise = 0;
+    for (size_t n = 0; n < ball->neighbours; n += 16) {
+        const __m512i ids = _mm512_loadu_si512(list + n);
+        const size_t left = ball->neighbours - n;
+        const __mmask16 real = left < 16 ? (__mmask16)((1u << left) - 1) : 0xffff;
+        __m512i at[3];
+        for (int a = 0; a < 3; a++) at[a] = _mm512_i32gather_epi32(ids, balls->column[a], 4);
+        const __m512 contact =
+            balls->alike ? _mm512_add_ps(radius, radius)
+                         : _mm512_add_ps(radius, _mm512_i32gather_ps(ids, balls->radius_single, 4));
+        const __m512 contact2 = _mm512_mul_ps(contact, contact);
+        const __m512i after = energies(balls, contact2, square_of(balls, at, to));
+        const __m512i before = energies(balls, contact2, square_of(balls, at, ball->place));
+        rise += sum_of(_mm512_maskz_sub_epi32(real, after, before));
+    }
+    return rise;
+}
+
+#elif defined(__AVX2__)
+
+KERNEL __m256 square_of(const Balls *balls, const __m256i at[3], const uint32_t place[4]) {
+    __m256 r2 = _mm256_setzero_ps();
+    for (int a = 0; a < 3; a++) {
+        const __m256i apart = _mm256_sub_epi32(_mm256_set1_epi32((int)place[a]), at[a]);
+        const __m256 r =
+            _mm256_mul_ps(_mm256_cvtepi32_ps(apart), _mm256_set1_ps(balls->unit_single[a]));
+        r2 = a == 0 ? _mm256_mul_ps(r, r) : _mm256_add_ps(r2, _mm256_mul_ps(r, r));
+    }
+    return r2;
+}
+
+KERNEL __m256i energies(const Balls *balls, __m256 contact2, __m256 r2) {
+    const __m256 y = _mm256_div_ps(contact2, r2);
+    __m256 power = balls->exponent & 1 ? _mm256_sqrt_ps(y) : _mm256_set1_ps(1), square = y;
+    for (int n = balls->exponent / 2; n > 0; n /= 2) {
+        if (n & 1) power = _mm256_mul_ps(power, square);
+        square = _mm256_mul_ps(square, square);
+    }
+    power = _mm256_mul_ps(power, _mm256_set1_ps((float)ENERGY_UNITS));
+    return _mm256_cvtps_epi32(_mm256_min_ps(power, _mm256_set1_ps((float)ENERGY_MOST)));
+}
+
+KERNEL int64_t sum_of(__m256i x) {
+    const __m256i four = _mm256_add_epi64(_mm256_cvtepi32_epi64(_mm256_castsi256_si128(x)),
+                                          _mm256_cvtepi32_epi64(_mm256_extracti128_si256(x, 1)));
+    const __m128i two =
+        _mm_add_epi64(_mm256_castsi256_si128(four), _mm256_extracti128_si256(four, 1));
+    return _mm_cvtsi128_si64(two) + _mm_extract_epi64(two, 1);
+}
+
+KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4]) {
+    const uint32_t *list = balls->list + i * balls->room;
+    const Ball *ball = &balls->ball[i];
+    const __m256 radius = _mm256_set1_ps(balls->radius_single[i]);
+    const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    int64_t rise = 0;
+    for (size_t n = 0; n < ball->neighbours; n += 8) {
+        const __m256i ids = _mm256_loadu_si256((const __m256i *)(list + n));
+        const __m256i real =
+            _mm256_cmpgt_epi32(_mm256_set1_epi32((int)(ball->neighbours - n)), lane);
+        __m256i at[3];
+        for (int a = 0; a < 3; a++) {
+            at[a] = _mm256_i32gather_epi32((const int *)balls->column[a], ids, 4);
+        }
+        const __m256 contact =
+            balls->alike ? _mm256_add_ps(radius, radius)
+                         : _mm256_add_ps(radius, _mm256_i32gather_ps(balls->radius_single, ids, 4));
+        const __m256 contact2 = _mm256_mul_ps(contact, contact);
+        const __m256i after = energies(balls, contact2, square_of(balls, at, to));
+        const __m256i before = energies(balls, contact2, square_of(balls, at, ball->place));
+        rise += sum_of(_mm256_and_si256(real, _mm256_sub_epi32(after, before)));
+    }
+    return rise;
+}
+
+#else
+
+KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4]) {
+    const uint32_t *list = balls->list + i * balls->room;
+    int64_t rise = 0;
+    for (uint32_t n = 0; n < balls->ball[i].neighbours; n++) {
+        rise += balls_energy(balls, i, to, list[n]) -
+                balls_energy(balls, i, balls->ball[i].place, list[n]);
+    }
+    return rise;
+}
+
+#endif
+
+// One trial.
+
+// Far trials go without lists; they are few.
+static __attribute__((noinline)) bool strayed_is_accepted(const Balls *balls, size_t t, uint32_t i,
+                                                          const uint32_t to[4]) {
+    if (!balls->soft) return !balls_overlap_anywhere(balls, i, to);
+    return balls_energy_anywhere(balls, i, to) -
+               balls_energy_anywhere(balls, i, balls->ball[i].place) <=
+           balls->affordable[t];
+}
+
+// Is it farther from its anchor than it may be before a trial?
+KERNEL bool left_anchor(const Balls *balls, const Ball *ball) {
+    float r[3];
+    for (int a = 0; a < 3; a++) {
+        r[a] = (float)(int32_t)(ball->place[a] - ball->anchor[a]) * balls->unit_single[a];
+    }
+    return r[0] * r[0] + r[1] * r[1] + r[2] * r[2] > balls->leash2;
+}
+
+KERNEL void count_move(const Balls *balls, const int32_t move[4], MoveTally *moves) {
+    const double x = move[0] * balls->unit[0], y = move[1] * balls->unit[1],
+                 z = move[2] * balls->unit[2];
+    moves->accepted++;
+    moves->parallel += x * x;
+    moves->perpendicular += y * y + z * z;
+}
+
+KERNEL void carry_out(const bool soft, Balls *balls, uint32_t i, const uint32_t to[4],
+                      const int32_t move[4], uint64_t trial) {
+    Ball *ball = &balls->ball[i];
+    for (int a = 0; a < 3; a++) {
+        ball->image[a] += (to[a] < ball->place[a]) - (move[a] < 0);
+        ball->place[a] = to[a];
+        if (soft) balls->column[a][i] = to[a];
+    }
+    const uint64_t radius = balls->coarse[i] & 0xffffull << 48;
+    balls->coarse[i] = (trial & ~(0xffffull << 48)) | radius;
+}
+
+KERNEL bool run_trials(const bool soft, const bool alike, Balls *balls, size_t from, size_t to,
+                       MoveTally *moves) {
+    for (size_t t = from; t < to; t++) {
+        const uint32_t i = balls->who[t] & ~STRAYS, ahead = balls->who[t + 6] & ~STRAYS;
+        const bool strays = balls->who[t] & STRAYS;
+        __builtin_prefetch(&balls->ball[ahead]);
+        __builtin_prefetch(balls->list + ahead * balls->room);
+        const Ball *ball = &balls->ball[i];
+        MoveTally *tally = &moves[ball->species];
+        uint32_t place[4];
+        for (int a = 0; a < 4; a++) place[a] = ball->place[a] + (uint32_t)balls->move[t][a];
+        const uint64_t trial = coarse_trial(balls->coarse[i], place);
+        tally->trials++;
+        if (strays ? !strayed_is_accepted(balls, t, i, place)
+            : soft ? energy_rise(balls, i, place) > balls->affordable[t]
+                   : overlaps(alike, balls, i, place, trial)) {
+            continue;
+        }
+        count_move(balls, balls->move[t], tally);
+        carry_out(soft, balls, i, place, balls->move[t], trial);
+        if (left_anchor(balls, ball) && !balls_refresh(balls, i)) return false;
+    }
+    return true;
+}
+
+KERNEL bool run_block(Balls *balls, size_t from, size_t to, MoveTally *moves) {
+    if (balls->soft) return run_trials(true, false, balls, from, to, moves);
+    if (balls->alike) return run_trials(false, true, balls, from, to, moves);
+    return run_trials(false, false, balls, from, to, moves);
+}
+
+#define BALLS_KERNEL(name)                                                                         \
+    static void draw_here(Balls *balls, const uint32_t *words, const uint32_t *metropolis) {       \
+        draw(balls, words, metropolis);                                                            \
+    }                                                                                              \
+    static bool run_here(Balls *balls, size_t from, size_t to, MoveTally *moves) {                 \
+        return run_block(balls, from, to, moves);                                                  \
+    }                                                                                              \
+    const BallsKernel balls_kernel_##name = {draw_here, run_here};
