@@ -121,14 +121,15 @@ static Status read_dynamics(const Node *map, const char *name, Dynamics *dynamic
         TRY(option_read(option_named(&section_method_options, "method"), method, word));
         TRY(find_method(method, word, &kind));
     }
-    if (kind && kind != dynamics->kind) {
+    const bool complete = kind != dynamics->kind; // another method, of which all must be given
+    if (kind && complete) {
         *dynamics = (Dynamics){.kind = kind};
         TRY(options_default(&kind->options, &dynamics->settings));
     }
     const OptionTarget targets[] = {{&section_method_options, word},
                                     {kind ? &kind->options : NULL, &dynamics->settings}};
     const OptionMap options = {name, targets, kind ? COUNT(targets) : 1, NULL};
-    return options_read(&options, map, !dynamics->kind);
+    return options_read(&options, map, complete);
 }
 
 static Status read_observable_settings(const Node *node, const ObservableKind *kind,

@@ -37,3 +37,16 @@ bool chain_rescale(Chain *chain, double scale) {
 size_t chain_memory(const System *system) {
     return kind_for(system)->memory(system);
 }
+
+double chain_seconds_per_trial(const System *system) {
+    static const double seconds[SHAPES] = {[SHAPE_DISC] = 12e-9,
+                                           [SHAPE_SPHERE] = 12e-9,
+                                           [SHAPE_SPHEROCYLINDER] = 150e-9,
+                                           [SHAPE_PLATELET] = 300e-9,
+                                           [SHAPE_SOFT_SPHERE] = 30e-9};
+    double sum = 0;
+    for (size_t s = 0; s < system->species_count; s++) {
+        sum += system->species[s].fraction * seconds[system->species[s].shape];
+    }
+    return sum;
+}

@@ -75,4 +75,5 @@ void chain_publish(Chain *chain);
 // would overlap. Sizes of the State itself never change.
 bool chain_rescale(Chain *chain, double scale);
 
-size_t chain_memory(const System *system); // bytes
+size_t chain_memory(const System *system);            // bytes
+double chain_seconds_per_trial(const System *system); // rough, of one core

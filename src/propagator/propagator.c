@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-// Becomes: &propagator_event_driven, &propagator_newtonian, NULL
+// Becomes: &propagator_event_driven, &propagator_newtonian, ..., NULL
 const PropagatorKind *const propagator_kinds[] = {
 #define PROPAGATOR(id) &propagator_##id,
 #include "propagator/propagators.def"

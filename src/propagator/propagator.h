@@ -56,7 +56,7 @@ struct PropagatorKind {
     void (*free)(Propagator *propagator);
 };
 
-// Becomes: extern const PropagatorKind propagator_event_driven, propagator_newtonian;
+// Becomes: extern const PropagatorKind propagator_event_driven; ...
 #define PROPAGATOR(id) extern const PropagatorKind propagator_##id;
 #include "propagator/propagators.def"
 #undef PROPAGATOR

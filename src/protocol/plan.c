@@ -11,7 +11,9 @@ static const Option stage_rows[] = {
     {"stage", OPTION_TEXT, offsetof(Stage, name), 0, 0, 0, "",
      "Name of the stage; it prefixes its results.", .required = 1},
     {"time", OPTION_REAL, offsetof(Stage, time), 0, 1e-9, 1e12, "time unit of the method",
-     "How long the stage lasts: d^2/D0 with event-driven, d sqrt(m/kT) with newtonian dynamics.",
+     "How long the stage lasts: d^2/D0 with event-driven and dynamic-monte-carlo, d sqrt(m/kT) "
+     "with "
+     "newtonian dynamics, cycles with monte-carlo.",
      .required = 1},
 };
 const OptionTable stage_options = {stage_rows, sizeof stage_rows / sizeof *stage_rows,

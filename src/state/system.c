@@ -101,6 +101,38 @@ Diffusion species_diffusion(const Species *species) {
     return diffusion;
 }
 
+static Status check_diffusion(const System *system, size_t index) {
+    const Species *species = &system->species[index];
+    const Body body = species_body(species);
+    const Diffusion given = species->diffusion, diffusion = species_diffusion(species);
+    const bool oriented = shape_is_oriented(body.shape);
+    if (body.shape == SHAPE_DISC && system->species_count > 1 && !(given.parallel > 0))
+        return status_fail(BAD_DATA,
+                           "diffusion = 0: species '%s' needs {parallel: ...}, since discs have no "
+                           "Stokes law that would tell several species apart",
+                           species->name);
+    if (!oriented && (given.perpendicular > 0 || given.rotational > 0))
+        return status_fail(
+            BAD_DATA, "diffusion.%s = %g: species '%s' has no body axis; give parallel alone",
+            given.perpendicular > 0 ? "perpendicular" : "rotational",
+            given.perpendicular > 0 ? given.perpendicular : given.rotational, species->name);
+    const bool whole = diffusion.parallel > 0 && diffusion.perpendicular > 0 &&
+                       (!oriented || diffusion.rotational > 0);
+    const bool by_hand = given.parallel > 0 && given.perpendicular > 0 && given.rotational > 0;
+    const bool short_rod = body.shape == SHAPE_SPHEROCYLINDER && body.length < 2 * body.diameter;
+    if (whole && (!short_rod || by_hand)) return OK;
+    return status_fail(BAD_DATA,
+                       "diffusion = 0: species '%s' needs {parallel: ..., perpendicular: ..., "
+                       "rotational: ...}, since the built-in tensor is for rods of length >= 2 "
+                       "diameters",
+                       species->name);
+}
+
+Status system_check_diffusion(const System *system) {
+    for (size_t s = 0; s < system->species_count; s++) TRY(check_diffusion(system, s));
+    return OK;
+}
+
 double system_reference_diffusion(const System *system) {
     const Diffusion first = species_diffusion(&system->species[0]);
     return diffusion_mean(&first, (int)system->dimension);

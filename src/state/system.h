@@ -55,6 +55,8 @@ bool system_is_oriented(const System *system);
 
 // Of a free particle, in kT/(eta d): what the run file gives, the rest built in.
 Diffusion species_diffusion(const Species *species);
+// BAD_DATA with a sentence if some species has no diffusion tensor to base a clock on.
+Status system_check_diffusion(const System *system);
 // The unit of times, d^2/D0, has this D0: that of the first species, mean over directions.
 double system_reference_diffusion(const System *system);
 

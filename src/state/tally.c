@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-static void moves_archive(MoveTally *moves, Archive *archive) {
+void tally_archive_moves(MoveTally *moves, Archive *archive) {
     archive_u64(archive, &moves->trials, 1);
     archive_u64(archive, &moves->accepted, 1);
     archive_f64(archive, &moves->parallel, 1);
@@ -15,7 +15,7 @@ static void moves_archive(MoveTally *moves, Archive *archive) {
     archive_f64(archive, &moves->free.rotational, 1);
 }
 
-static void moves_add(MoveTally *sum, const MoveTally *more) {
+void tally_add_moves(MoveTally *sum, const MoveTally *more) {
     sum->trials += more->trials;
     sum->accepted += more->accepted;
     sum->parallel += more->parallel;
@@ -35,7 +35,7 @@ void tally_archive(Tally *tally, Archive *archive) {
     archive_u64(archive, &tally->replays, 1);
     archive_u64(archive, &tally->stale, 1);
     archive_u64(archive, &tally->windows, 1);
-    for (size_t s = 0; s < SPECIES_MOST; s++) moves_archive(&tally->moves[s], archive);
+    for (size_t s = 0; s < SPECIES_MOST; s++) tally_archive_moves(&tally->moves[s], archive);
 }
 
 void tally_add(Tally *sum, const Tally *more) {
@@ -49,5 +49,5 @@ void tally_add(Tally *sum, const Tally *more) {
     sum->replays += more->replays;
     sum->stale += more->stale;
     sum->windows += more->windows;
-    for (size_t s = 0; s < SPECIES_MOST; s++) moves_add(&sum->moves[s], &more->moves[s]);
+    for (size_t s = 0; s < SPECIES_MOST; s++) tally_add_moves(&sum->moves[s], &more->moves[s]);
 }

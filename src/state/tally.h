@@ -39,3 +39,5 @@ typedef struct Tally {
 // may differ after a resume and never reach a result.
 void tally_archive(Tally *tally, Archive *archive);
 void tally_add(Tally *sum, const Tally *more);
+void tally_archive_moves(MoveTally *moves, Archive *archive);
+void tally_add_moves(MoveTally *sum, const MoveTally *more);

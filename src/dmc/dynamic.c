@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Dynamic Monte Carlo: the chain with a clock. A tick is a fixed time, about a cycle, chosen from
+// the plan alone; how many trials are worth it is measured as the run goes on, from before the
+// stage begins ([JT]; mixtures: Garcia Daza et al.).
+#include "dmc/clock.h"
+#include "dmc/dmc.h"
+#include "dmc/predict.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+static const double ACCEPTANCE_FLOOR = 0.05; // below it, trials say little about diffusion
+static const int ADJUSTMENTS = 20;           // of the amplitudes of a mixture, in the calibration
+static const double CLOCKS_APART = 0.1;      // at most, of two species after the calibration
+
+typedef struct Dynamic {
+    double step;
+    int64_t clock, matching, matched; // ClockKind, MatchedSpan, MatchedMotion
+    int64_t rotation, moves;
+    int64_t calibration; // cycles
+} Dynamic;
+
+static const char *const clock_names[] = {"acceptance-rescaling", "diffusion-matching", NULL};
+static const char *const span_names[] = {"per-cycle", "per-attempt", NULL};
+static const char *const motion_names[] = {"parallel", "perpendicular", "rotational", NULL};
+static const char *const rotation_names[] = {"mixed", "tangent", NULL};
+static const char *const moves_names[] = {"uniform", "gaussian", NULL};
+
+static const Option rows[] = {
+    {.name = "step",
+     .type = OPTION_REAL,
+     .offset = offsetof(Dynamic, step),
+     .least = 1e-5,
+     .most = 1,
+     .unit = "d",
+     .about =
+         "Largest displacement of a trial along the body axis of the first species (along each "
+         "axis of space for bodies without one); all other amplitudes follow from the "
+         "diffusion tensors. `perrin check` says which one to take for a wanted acceptance.",
+     .required = 1},
+    {.name = "clock",
+     .type = OPTION_CHOICE,
+     .offset = offsetof(Dynamic, clock),
+     .fallback = CLOCK_MATCHING,
+     .about =
+         "What slows a cycle down against free diffusion: the acceptance, or the measured mean "
+         "squared displacement.",
+     .choices = clock_names},
+    {.name = "matching",
+     .type = OPTION_CHOICE,
+     .offset = offsetof(Dynamic, matching),
+     .fallback = MATCH_PER_CYCLE,
+     .about = "The displacement that diffusion-matching takes: after a whole cycle, which contains "
+              "back-scattering, or per attempt.",
+     .choices = span_names},
+    {.name = "matched",
+     .type = OPTION_CHOICE,
+     .offset = offsetof(Dynamic, matched),
+     .fallback = MATCH_PARALLEL,
+     .about = "The motion of bodies with an axis that diffusion-matching takes.",
+     .choices = motion_names},
+    {.name = "rotation",
+     .type = OPTION_CHOICE,
+     .offset = offsetof(Dynamic, rotation),
+     .fallback = ROTATION_MIXED,
+     .about = "How trials rotate: towards a random point of the sphere, or by random steps in the "
+              "tangent plane.",
+     .choices = rotation_names},
+    {.name = "moves",
+     .type = OPTION_CHOICE,
+     .offset = offsetof(Dynamic, moves),
+     .about = "Distribution of displacements; gaussian ones have the variance of the uniform ones, "
+              "and rotations in the tangent plane.",
+     .choices = moves_names},
+    {.name = "calibration",
+     .type = OPTION_INTEGER,
+     .offset = offsetof(Dynamic, calibration),
+     .fallback = 1000,
+     .least = 40,
+     .most = 1e9,
+     .unit = "cycles",
+     .about = "Cycles before the stage begins: in the first half the steps of a mixture's other "
+              "species are adjusted to one clock, in the second the clock is measured."},
+};
+
+typedef struct DynamicPropagator {
+    Propagator base;
+    State *state;
+    Dynamic set;
+    double tick; // in d^2/D0
+    ChainClock *clock;
+} DynamicPropagator;
+
+static const Dynamic *dynamic(const Settings *settings) {
+    return (const Dynamic *)settings->bytes;
+}
+
+static DynamicPropagator *own(Propagator *propagator) {
+    return (DynamicPropagator *)propagator;
+}
+
+static ChainSettings chain_settings(const Dynamic *set) {
+    return (ChainSettings){.stream = STREAM_TRIALS,
+                           .rotation = (RotationRule)set->rotation,
+                           .gaussian = (int)set->moves};
+}
+
+// Of a species if all accept alike: D_b/D_first = step_b^2/step^2.
+static double first_step(const Dynamic *set, const System *system, size_t species) {
+    const Diffusion first = species_diffusion(&system->species[0]);
+    const Diffusion other = species_diffusion(&system->species[species]);
+    return set->step * sqrt(other.parallel / first.parallel);
+}
+
+static double predicted(const Dynamic *set, const System *system, size_t species) {
+    const ChainSettings chain = chain_settings(set);
+    return predict_acceptance(system, species, first_step(set, system, species), &chain);
+}
+
+// Of a cycle, in d^2/D0.
+static double predicted_cycle(const Dynamic *set, const System *system) {
+    const Diffusion first = species_diffusion(&system->species[0]);
+    return predicted(set, system, 0) * set->step * set->step / (6 * first.parallel) *
+           system_reference_diffusion(system);
+}
+
+// The largest of 1, 2, 5 times a power of ten not above x < 1.
+static double round_below(double x) {
+    double power = 1;
+    while (x * power < 1) power *= 10;
+    const double digit = x * power;
+    return (digit >= 5 ? 5 : digit >= 2 ? 2 : 1) / power;
+}
+
+static double tick(const Settings *settings, const System *system) {
+    return round_below(fmin(0.99, predicted_cycle(dynamic(settings), system)));
+}
+
+static int64_t one(const Settings *settings) {
+    (void)settings;
+    return 1;
+}
+
+static Status check_rotation(const Dynamic *set, const System *system, size_t species) {
+    const ChainSettings chain = chain_settings(set);
+    const Diffusion diffusion = species_diffusion(&system->species[species]);
+    const double limit = amplitude_limit(&diffusion, &chain);
+    const double step = first_step(set, system, species);
+    if (step < limit) return OK;
+    return status_fail(BAD_DATA,
+                       "step = %g turns species '%s' by amplitudes of 1/2 and more, where rotation "
+                       "has no clock; the step must be below %.4g",
+                       set->step, system->species[species].name, set->step * limit / step);
+}
+
+static Status check_acceptance(const Dynamic *set, const System *system) {
+    const double acceptance = predicted(set, system, 0);
+    if (acceptance >= ACCEPTANCE_FLOOR) return OK;
+    const ChainSettings chain = chain_settings(set);
+    return status_fail(BAD_DATA,
+                       "step = %g would be accepted in about %.2g of the trials, below %g, where "
+                       "the clock has no meaning; a step of %.2g gives an acceptance of 0.3",
+                       set->step, acceptance, ACCEPTANCE_FLOOR,
+                       predict_step(system, 0, 0.3, &chain));
+}
+
+static Status check(const Settings *settings, const System *system) {
+    const Dynamic *set = dynamic(settings);
+    if (!(set->step > 0 && set->step <= 1))
+        return status_fail(BAD_DATA, "step = %g must be above 0 and at most 1 d", set->step);
+    TRY(chain_check(system));
+    TRY(system_check_diffusion(system));
+    for (size_t s = 0; s < system->species_count; s++) TRY(check_rotation(set, system, s));
+    return check_acceptance(set, system);
+}
+
+static double seconds(const Settings *settings, const System *system) {
+    const Dynamic *set = dynamic(settings);
+    return tick(settings, system) / predicted_cycle(set, system) * chain_seconds_per_trial(system);
+}
+
+static void describe(const Settings *settings, const System *system, double time, Text *lines) {
+    const Dynamic *set = dynamic(settings);
+    const ChainSettings chain = chain_settings(set);
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Diffusion diffusion = species_diffusion(&system->species[s]);
+        const Amplitude amplitude =
+            amplitude_matched(first_step(set, system, s), &diffusion, &chain);
+        text_add(lines, "%s: D = %.4g D0, step %.4g d", system->species[s].name,
+                 diffusion_mean(&diffusion, (int)system->dimension) /
+                     system_reference_diffusion(system),
+                 amplitude.parallel);
+        if (amplitude.rotation > 0)
+            text_add(lines, " along, %.4g d across its axis, rotation %.4g",
+                     amplitude.perpendicular, amplitude.rotation);
+        text_add(lines, ", acceptance about %.2g\n", predicted(set, system, s));
+    }
+    const double cycle = predicted_cycle(set, system);
+    text_add(lines, "a cycle lasts about %.2g d^2/D0: %.3g cycles\n", cycle, time / cycle);
+    text_add(lines, "an acceptance of 0.3, 0.5, 0.8 wants a step of about %.2g, %.2g, %.2g\n",
+             predict_step(system, 0, 0.3, &chain), predict_step(system, 0, 0.5, &chain),
+             predict_step(system, 0, 0.8, &chain));
+}
+
+static void release(Propagator *propagator) {
+    if (!propagator) return;
+    clock_free(own(propagator)->clock);
+    memory_free(propagator);
+}
+
+static Status create(Propagator **out, const Settings *settings, State *state, RngKey key) {
+    DynamicPropagator *made = NULL;
+    TRY(NEW(made));
+    made->base.kind = &propagator_dynamic_monte_carlo;
+    made->state = state;
+    made->set = *dynamic(settings);
+    made->tick = tick(settings, &state->system);
+    const ClockSettings clock = {.chain = chain_settings(&made->set),
+                                 .kind = (ClockKind)made->set.clock,
+                                 .motion = (MatchedMotion)made->set.matched,
+                                 .span = (MatchedSpan)made->set.matching};
+    const Status status = clock_create(&made->clock, &clock, state, key);
+    if (status != OK) {
+        release(&made->base);
+        return status;
+    }
+    for (size_t s = 0; s < state->system.species_count; s++) {
+        clock_set_step(made->clock, s, first_step(&made->set, &state->system, s));
+    }
+    *out = &made->base;
+    return OK;
+}
+
+// Where a species is slower than the first, longer steps; its acceptance falls with them, so that
+// the square root converges from one side.
+static Status adjust(DynamicPropagator *made, size_t species) {
+    const System *system = &made->state->system;
+    const double pace = clock_cycle_of(made->clock, 0) / clock_cycle_of(made->clock, species);
+    const double factor = sqrt(fmin(fmax(pace, 0.25), 4));
+    const double step = fmin(clock_step(made->clock, species) * factor, 1);
+    const ChainSettings chain = chain_settings(&made->set);
+    const Diffusion diffusion = species_diffusion(&system->species[species]);
+    if (step < amplitude_limit(&diffusion, &chain))
+        return clock_set_step(made->clock, species, step), OK;
+    return status_fail(UNHEALTHY,
+                       "species '%s' cannot keep pace with '%s' at step = %g: its rotation would "
+                       "need amplitudes of 1/2 and more; take a smaller step",
+                       system->species[species].name, system->species[0].name, made->set.step);
+}
+
+static Status check_running(const DynamicPropagator *made) {
+    static const uint64_t ENOUGH = 1000; // trials of a species, to judge it
+    const System *system = &made->state->system;
+    for (size_t s = 0; s < system->species_count; s++) {
+        const double acceptance = clock_acceptance(made->clock, s);
+        if (clock_trials(made->clock, s) < ENOUGH || acceptance >= ACCEPTANCE_FLOOR) continue;
+        return status_fail(UNHEALTHY,
+                           "species '%s' accepts %.3g of its trials at step = %g, less than %g, "
+                           "where the clock has no meaning; take a smaller step",
+                           system->species[s].name, acceptance, made->set.step, ACCEPTANCE_FLOOR);
+    }
+    return OK;
+}
+
+static Status check_one_clock(const DynamicPropagator *made) {
+    const System *system = &made->state->system;
+    const double first = clock_cycle_of(made->clock, 0);
+    for (size_t s = 1; s < system->species_count; s++) {
+        const double apart = clock_cycle_of(made->clock, s) / first - 1;
+        const double sure = 4 / sqrt((double)clock_trials(made->clock, s) + 1); // statistics
+        if (fabs(apart) <= CLOCKS_APART + sure) continue;
+        return status_fail(UNHEALTHY,
+                           "species '%s' is off the clock of '%s' by %.0f %% at step = %g; take a "
+                           "smaller step or a longer calibration",
+                           system->species[s].name, system->species[0].name, 100 * apart,
+                           made->set.step);
+    }
+    return OK;
+}
+
+static Status prepare(Propagator *propagator) {
+    DynamicPropagator *made = own(propagator);
+    const int64_t count = (int64_t)made->state->count, half = made->set.calibration / 2 * count;
+    for (int k = 0; k < ADJUSTMENTS; k++) {
+        clock_restart(made->clock);
+        TRY(clock_run(made->clock, half / ADJUSTMENTS, NULL));
+        for (size_t s = 1; s < made->state->system.species_count; s++) TRY(adjust(made, s));
+    }
+    clock_restart(made->clock);
+    TRY(clock_run(made->clock, half, NULL));
+    clock_publish(made->clock);
+    TRY(check_running(made));
+    return check_one_clock(made);
+}
+
+static Status advance(Propagator *propagator, int64_t ticks, Tally *tally) {
+    DynamicPropagator *made = own(propagator);
+    for (int64_t t = 0; t < ticks; t++) TRY(clock_advance(made->clock, made->tick, tally));
+    clock_publish(made->clock);
+    return check_running(made);
+}
+
+static void archive(Propagator *propagator, Archive *archive) {
+    clock_archive(own(propagator)->clock, archive);
+}
+
+const PropagatorKind propagator_dynamic_monte_carlo = {
+    .name = "dynamic-monte-carlo",
+    .about = "Monte Carlo of single-particle moves whose cycles are worth a measured time of "
+             "Brownian motion; for all shapes.",
+    .time_unit = "d^2/D0",
+    .time_meaning = "D0 is the free diffusion coefficient of the first species, averaged over "
+                    "directions.",
+    .options = {rows, sizeof rows / sizeof *rows, sizeof(Dynamic)},
+    .check = check,
+    .tick = tick,
+    .ticks_per_step = one,
+    .seconds_per_particle_tick = seconds,
+    .memory = clock_memory,
+    .describe = describe,
+    .create = create,
+    .prepare = prepare,
+    .advance = advance,
+    .archive = archive,
+    .free = release,
+};
