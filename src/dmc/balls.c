@@ -86,7 +86,9 @@ static void balls_free(Chain *chain) {
     memory_free(balls->radius_single);
     memory_free(balls->coarse);
     memory_free(balls->list);
-    memory_free(balls->first);
+    memory_free(balls->seat);
+    memory_free(balls->seated);
+    memory_free(balls->coarse_anchor);
     memory_free(balls->found);
     memory_free(balls->ids);
     for (int a = 0; a < 3; a++) {
@@ -101,7 +103,8 @@ static Status allocate(Balls *balls) {
     TRY(NEW_ARRAY(balls->ball, count));
     TRY(NEW_ARRAY(balls->radius, count));
     TRY(NEW_ARRAY(balls->coarse, count));
-    TRY(NEW_ARRAY(balls->found, count + 1));
+    TRY(NEW_ARRAY(balls->coarse_anchor, count));
+    TRY(NEW_ARRAY(balls->found, count + NEIGHBOURS_AT_A_TIME));
     TRY(NEW_ARRAY(balls->radius_single, count));
     for (int a = 0; a < 3 && balls->soft; a++) TRY(NEW_ARRAY(balls->column[a], count));
     if (!balls->settings.gaussian) return OK;
@@ -136,14 +139,13 @@ static bool edges_are_equal(const State *state) {
 // coordinate of a difference by one; where edges or diameters differ by 1.75, as the products by
 // coarse_scale are rounded, and the sum of two radii by 1.25.
 static const double ALIKE_OFF = 1.7320509, SCALED_OFF = 3.0310890, RADII_OFF = 1.25;
-static const double COARSE_SCALE = 0.75; // of the longest edge: squares of distances fit 31 bits
 static const double RADIUS_SCALE = 24576.0 / 32768;
 
 static void set_coarse_bounds(Balls *balls) {
     const double *edge = balls->state->box.edge;
     double longest = 0;
     for (int a = 0; a < balls->dimension; a++) longest = fmax(longest, edge[a]);
-    const double per_edge = balls->alike ? 0x1p16 : COARSE_SCALE * 0x1p16;
+    const double per_edge = balls->alike ? 0x1p16 : COARSE_PER_EDGE;
     const double contact = balls->largest / longest * per_edge;
     const double below = contact + ALIKE_OFF, sure = fmax(contact - ALIKE_OFF, 0);
     balls->below = (uint32_t)(below * below) + 2;
@@ -151,16 +153,13 @@ static void set_coarse_bounds(Balls *balls) {
     const double off = SCALED_OFF + RADII_OFF;
     balls->doubt = (int32_t)(2 * off * contact + off * off) + 2;
     for (int a = 0; a < balls->dimension; a++) {
-        balls->coarse_scale[a] = (int16_t)rint(0x1p15 * COARSE_SCALE * edge[a] / longest);
+        balls->coarse_scale[a] = (int16_t)rint(COARSE_PER_EDGE / 2 * edge[a] / longest);
     }
     for (size_t i = 0; i < balls->count; i++) {
         const double radius = balls->radius[i] / longest * per_edge / RADIUS_SCALE;
         const uint64_t minus = (uint16_t) - (int32_t)rint(radius);
         const Ball *ball = &balls->ball[i];
-        balls->coarse[i] = balls->alike ? 0 : minus << 48;
-        for (int a = 0; a < 3; a++) {
-            balls->coarse[i] |= (uint64_t)(uint16_t)((ball->place[a] + 0x8000) >> 16) << (16 * a);
-        }
+        balls->coarse[i] = balls_coarse(ball->place) | (balls->alike ? 0 : minus << 48);
     }
 }
 

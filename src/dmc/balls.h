@@ -29,7 +29,8 @@ typedef struct Ball {
     int32_t image[3];
     uint32_t neighbours; // in its list
     uint32_t species;
-    int32_t cell, next, before; // of the anchors in a cell, doubly linked
+    uint32_t cell, seat; // of the anchor
+    uint32_t unused;
 } Ball;
 
 typedef struct Balls Balls;
@@ -40,6 +41,9 @@ typedef struct BallsKernel {
     // returns false when there was no memory for a list.
     void (*draw)(Balls *balls, const uint32_t *words, const uint32_t *metropolis);
     bool (*run)(Balls *balls, size_t from, size_t to, MoveTally *moves);
+    // Of `count` ids those whose coarse anchors are so near that they may be in the list of i.
+    size_t (*near)(const Balls *balls, uint32_t i, const uint32_t *ids, size_t count,
+                   uint32_t *near);
 } BallsKernel;
 extern const BallsKernel balls_kernel_portable, balls_kernel_avx2, balls_kernel_avx512;
 
@@ -77,14 +81,17 @@ struct Balls {
     bool separate;  // seen to be without overlaps at this scale
     double reach;   // contact times this: the range of the interaction
     double skin;    // in d
-    double stride;  // longest displacement that the lists allow, in d
-    float leash2;   // square of how far from its anchor a particle may come before a trial, in d^2
+    double stride;  // longest displacement that is looked up in the lists, in d
+    float leash2;   // (skin/2)^2, of how far from its anchor a particle may come, in d^2
     size_t room;    // of each list, a multiple of NEIGHBOURS_AT_A_TIME
     uint32_t *list; // [count][room], filled up with a repeated neighbour
     int64_t cells[3];
-    int32_t *first; // [cells_most] of each cell, or -1
-    size_t cells_most;
-    uint32_t *found; // [count] room for a search
+    size_t cells_most, seats; // of the arrays below; seats a multiple of NEIGHBOURS_AT_A_TIME
+    uint32_t *seated;         // [cells_most] particles in each cell
+    uint32_t *seat;           // [cells_most][seats] who they are
+    uint64_t *coarse_anchor;  // [count]
+    uint32_t far;             // square of a coarse distance of anchors beyond the range of lists
+    uint32_t *found;          // [count + NEIGHBOURS_AT_A_TIME] room for a search
 
     uint64_t block;                                 // whose trials are drawn; UINT64_MAX: none
     uint32_t who[TRIALS_PER_BLOCK + 8];             // particle, and perhaps STRAYS
@@ -106,6 +113,17 @@ bool balls_refresh(Balls *balls, uint32_t i);
 // Does anything overlap a particle at `place`? By cells, whatever the distance.
 bool balls_overlap_anywhere(const Balls *balls, uint32_t i, const uint32_t place[3]);
 int64_t balls_energy_anywhere(const Balls *balls, uint32_t i, const uint32_t place[3]);
+
+// Scaled coarse steps per longest edge: squares of any distance fit 31 bits.
+#define COARSE_PER_EDGE (0.75 * 0x1p16)
+
+static inline uint64_t balls_coarse(const uint32_t place[4]) {
+    uint64_t coarse = 0;
+    for (int a = 0; a < 3; a++) {
+        coarse |= (uint64_t)(uint16_t)((place[a] + 0x8000) >> 16) << (16 * a);
+    }
+    return coarse;
+}
 
 static inline double balls_distance2(const Balls *balls, const uint32_t a[3], const uint32_t b[3]) {
     double r[3];

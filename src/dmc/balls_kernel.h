@@ -103,11 +103,7 @@ KERNEL void draw(Balls *balls, const uint32_t *words, const uint32_t *metropolis
 // Coarse place of a trial, with plus the radius of the particle: the difference to a neighbour's
 // has the sum of the radii.
 KERNEL uint64_t coarse_trial(uint64_t own, const uint32_t to[4]) {
-    uint64_t coarse = (own >> 48 ? (0x10000 - (own >> 48)) << 48 : 0);
-    for (int a = 0; a < 3; a++) {
-        coarse |= (uint64_t)(uint16_t)((to[a] + 0x8000) >> 16) << (16 * a);
-    }
-    return coarse;
+    return balls_coarse(to) | (0x10000 - (own >> 48)) << 48;
 }
 
 // One bit for each of sixteen neighbours.
@@ -115,6 +111,12 @@ typedef struct Judged {
     unsigned near; // it may overlap
     unsigned sure; // it does
 } Judged;
+
+KERNEL uint64_t coarse_scales(const Balls *balls) {
+    const int16_t *f = balls->coarse_scale;
+    return (uint64_t)(uint16_t)f[0] | (uint64_t)(uint16_t)f[1] << 16 |
+           (uint64_t)(uint16_t)f[2] << 32;
+}
 
 #if defined(__AVX512F__)
 
@@ -139,9 +141,7 @@ KERNEL Judged judge(const bool alike, const Balls *balls, uint64_t trial, const 
         return (Judged){_mm512_cmplt_epu32_mask(r2, _mm512_set1_epi32((int)balls->below)),
                         _mm512_cmplt_epu32_mask(r2, _mm512_set1_epi32((int)balls->sure))};
     }
-    const int16_t *f = balls->coarse_scale;
-    const uint64_t scale =
-        (uint64_t)(uint16_t)f[0] | (uint64_t)(uint16_t)f[1] << 16 | (uint64_t)(uint16_t)f[2] << 32;
+    const uint64_t scale = coarse_scales(balls);
     const __m512i plus = _mm512_set1_epi64((int64_t)(scale | 24576ull << 48));
     const __m512i minus = _mm512_set1_epi64((int64_t)(scale | (65536ull - 24576) << 48));
     const __m512i q = sums_of(
@@ -172,9 +172,7 @@ KERNEL unsigned bits_below(__m256i x, int32_t bound) {
 KERNEL Judged judge(const bool alike, const Balls *balls, uint64_t trial, const uint32_t *ids) {
     const __m256i own = _mm256_set1_epi64x((int64_t)trial);
     const __m256i flip = _mm256_set1_epi32(INT32_MIN); // compares as if unsigned
-    const int16_t *f = balls->coarse_scale;
-    const uint64_t scale =
-        (uint64_t)(uint16_t)f[0] | (uint64_t)(uint16_t)f[1] << 16 | (uint64_t)(uint16_t)f[2] << 32;
+    const uint64_t scale = coarse_scales(balls);
     const __m256i plus = _mm256_set1_epi64x((int64_t)(scale | 24576ull << 48));
     const __m256i minus = _mm256_set1_epi64x((int64_t)(scale | (65536ull - 24576) << 48));
     Judged judged = {0, 0};
@@ -373,11 +371,11 @@ static __attribute__((noinline)) bool strayed_is_accepted(const Balls *balls, si
            balls->affordable[t];
 }
 
-// Is it farther from its anchor than it may be before a trial?
-KERNEL bool left_anchor(const Balls *balls, const Ball *ball) {
+// Is this farther from the particle's anchor than its list allows?
+KERNEL bool leaves_anchor(const Balls *balls, const Ball *ball, const uint32_t place[4]) {
     float r[3];
     for (int a = 0; a < 3; a++) {
-        r[a] = (float)(int32_t)(ball->place[a] - ball->anchor[a]) * balls->unit_single[a];
+        r[a] = (float)(int32_t)(place[a] - ball->anchor[a]) * balls->unit_single[a];
     }
     return r[0] * r[0] + r[1] * r[1] + r[2] * r[2] > balls->leash2;
 }
@@ -406,7 +404,7 @@ KERNEL bool run_trials(const bool soft, const bool alike, Balls *balls, size_t f
                        MoveTally *moves) {
     for (size_t t = from; t < to; t++) {
         const uint32_t i = balls->who[t] & ~STRAYS, ahead = balls->who[t + 6] & ~STRAYS;
-        const bool strays = balls->who[t] & STRAYS;
+        bool strays = balls->who[t] & STRAYS;
         __builtin_prefetch(&balls->ball[ahead]);
         __builtin_prefetch(balls->list + ahead * balls->room);
         const Ball *ball = &balls->ball[i];
@@ -415,6 +413,10 @@ KERNEL bool run_trials(const bool soft, const bool alike, Balls *balls, size_t f
         for (int a = 0; a < 4; a++) place[a] = ball->place[a] + (uint32_t)balls->move[t][a];
         const uint64_t trial = coarse_trial(balls->coarse[i], place);
         tally->trials++;
+        if (leaves_anchor(balls, ball, place) && !strays) { // look round from where it is
+            if (!balls_refresh(balls, i)) return false;
+            strays = leaves_anchor(balls, ball, place);
+        }
         if (strays ? !strayed_is_accepted(balls, t, i, place)
             : soft ? energy_rise(balls, i, place) > balls->affordable[t]
                    : overlaps(alike, balls, i, place, trial)) {
@@ -422,7 +424,7 @@ KERNEL bool run_trials(const bool soft, const bool alike, Balls *balls, size_t f
         }
         count_move(balls, balls->move[t], tally);
         carry_out(soft, balls, i, place, balls->move[t], trial);
-        if (left_anchor(balls, ball) && !balls_refresh(balls, i)) return false;
+        if (strays && !balls_refresh(balls, i)) return false;
     }
     return true;
 }
@@ -433,6 +435,52 @@ KERNEL bool run_block(Balls *balls, size_t from, size_t to, MoveTally *moves) {
     return run_trials(false, false, balls, from, to, moves);
 }
 
+// Neighbours to be.
+
+#if defined(__AVX512F__)
+
+KERNEL size_t near_ids(const Balls *balls, uint32_t i, const uint32_t *ids, size_t count,
+                       uint32_t *near) {
+    const __m512i own = _mm512_set1_epi64((int64_t)balls->coarse_anchor[i]);
+    const __m512i scale = _mm512_set1_epi64((int64_t)coarse_scales(balls));
+    size_t found = 0;
+    for (size_t n = 0; n < count; n += 8) {
+        const __m256i eight = _mm256_loadu_si256((const __m256i *)(ids + n));
+        const __m512i rows = _mm512_i32gather_epi64(eight, (const void *)balls->coarse_anchor, 8);
+        const __m512i apart = _mm512_mulhrs_epi16(_mm512_sub_epi16(own, rows), scale);
+        const __m512i two = _mm512_madd_epi16(apart, apart);
+        const __m512i r2 = _mm512_add_epi64(_mm512_srli_epi64(two, 32),
+                                            _mm512_and_si512(two, _mm512_set1_epi64(0xffffffff)));
+        const __mmask8 real = count - n < 8 ? (__mmask8)((1u << (count - n)) - 1) : 0xff;
+        const __mmask8 bits =
+            _mm512_mask_cmple_epu64_mask(real, r2, _mm512_set1_epi64((int64_t)balls->far));
+        _mm256_mask_compressstoreu_epi32(near + found, bits, eight);
+        found += (size_t)__builtin_popcount(bits);
+    }
+    return found;
+}
+
+#else
+
+KERNEL size_t near_ids(const Balls *balls, uint32_t i, const uint32_t *ids, size_t count,
+                       uint32_t *near) {
+    size_t found = 0;
+    for (size_t n = 0; n < count; n++) {
+        uint32_t r2 = 0;
+        for (int a = 0; a < 3; a++) {
+            const int16_t apart = (int16_t)((balls->coarse_anchor[i] >> (16 * a)) -
+                                            (balls->coarse_anchor[ids[n]] >> (16 * a)));
+            const int32_t scaled = (apart * balls->coarse_scale[a]) >> 15;
+            r2 += (uint32_t)(scaled * scaled);
+        }
+        near[found] = ids[n];
+        found += r2 <= balls->far;
+    }
+    return found;
+}
+
+#endif
+
 #define BALLS_KERNEL(name)                                                                         \
     static void draw_here(Balls *balls, const uint32_t *words, const uint32_t *metropolis) {       \
         draw(balls, words, metropolis);                                                            \
@@ -440,4 +488,8 @@ KERNEL bool run_block(Balls *balls, size_t from, size_t to, MoveTally *moves) {
     static bool run_here(Balls *balls, size_t from, size_t to, MoveTally *moves) {                 \
         return run_block(balls, from, to, moves);                                                  \
     }                                                                                              \
-    const BallsKernel balls_kernel_##name = {draw_here, run_here};
+    static size_t near_here(const Balls *balls, uint32_t i, const uint32_t *ids, size_t count,     \
+                            uint32_t *near) {                                                      \
+        return near_ids(balls, i, ids, count, near);                                               \
+    }                                                                                              \
+    const BallsKernel balls_kernel_##name = {draw_here, run_here, near_here};

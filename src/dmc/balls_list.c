@@ -11,10 +11,9 @@
 #include <math.h>
 #include <string.h>
 
-static const double SLACK = 0.11;      // of half the skin beyond the longest step, in diameters
-static const double SLACK_STEPS = 1.2; // or in steps, where that is less
-static const double SKIN_MOST = 1.2;   // in diameters
-static const double WIDER = 1.00001;   // rounding of distances and of single precision
+static const double SKIN_LEAST = 0.2, SKIN_MOST = 1.6; // in diameters
+static const double SKIN_STEPS = 3.4;                  // between these, in longest steps
+static const double WIDER = 1.00001; // rounding of distances and of single precision
 
 static double contact_of(const Balls *balls, uint32_t i, uint32_t j) {
     return (balls->radius[i] + balls->radius[j]) * balls->reach;
@@ -24,12 +23,48 @@ static double contact_of(const Balls *balls, uint32_t i, uint32_t j) {
 static void choose_skin(Balls *balls) {
     const double longest = balls->settings.gaussian ? 3.7 / sqrt(3) * balls->longest
                                                     : sqrt(balls->dimension) * balls->longest;
-    const double slack =
-        fmin(SLACK * balls->largest, SLACK_STEPS * longest) + 0.02 * balls->largest;
-    balls->skin = fmin(2 * (longest * WIDER + slack), SKIN_MOST * balls->largest);
-    balls->stride = fmin(longest * WIDER, balls->skin / 4);
-    const double leash = (balls->skin / 2 - balls->stride) / WIDER;
+    const double wanted = SKIN_LEAST * balls->largest + SKIN_STEPS * longest;
+    balls->skin = fmin(wanted, SKIN_MOST * balls->largest);
+    balls->stride = fmin(longest * WIDER, balls->skin / 2);
+    const double leash = balls->skin / 2 / WIDER;
     balls->leash2 = (float)(leash * leash);
+}
+
+// Coarse distances of anchors are in the scaled steps of balls.c, and off by less than four.
+static void choose_far(Balls *balls) {
+    double longest = 0;
+    for (int a = 0; a < balls->dimension; a++) {
+        longest = fmax(longest, balls->state->box.edge[a]);
+    }
+    const double range =
+        (balls->largest * balls->reach + balls->skin) / longest * COARSE_PER_EDGE + 4;
+    balls->far = (uint32_t)fmin(range * range, 0x1p30 * 1.9);
+}
+
+static Status make_cells(Balls *balls, size_t cells) {
+    memory_free(balls->seat);
+    memory_free(balls->seated);
+    balls->seat = balls->seated = NULL;
+    balls->cells_most = 0;
+    if (balls->seats == 0) balls->seats = NEIGHBOURS_AT_A_TIME;
+    TRY(NEW_ARRAY(balls->seated, cells));
+    TRY(NEW_ARRAY(balls->seat, cells * balls->seats));
+    balls->cells_most = cells;
+    return OK;
+}
+
+// Twice as many seats in every cell.
+static Status more_seats(Balls *balls) {
+    uint32_t *seat = NULL;
+    TRY(NEW_ARRAY(seat, balls->cells_most * 2 * balls->seats));
+    for (size_t c = 0; c < balls->cells_most; c++) {
+        memcpy(seat + c * 2 * balls->seats, balls->seat + c * balls->seats,
+               balls->seats * sizeof *seat);
+    }
+    memory_free(balls->seat);
+    balls->seat = seat;
+    balls->seats *= 2;
+    return OK;
 }
 
 static Status choose_cells(Balls *balls) {
@@ -45,13 +80,8 @@ static Status choose_cells(Balls *balls) {
         }
         wider *= 1.25;
     } while (cells > 4 * (double)balls->count + 64);
-    if ((size_t)cells > balls->cells_most) {
-        memory_free(balls->first);
-        balls->cells_most = 0;
-        TRY(NEW_ARRAY(balls->first, (size_t)cells));
-        balls->cells_most = (size_t)cells;
-    }
-    for (size_t c = 0; c < (size_t)cells; c++) balls->first[c] = -1;
+    if ((size_t)cells > balls->cells_most) TRY(make_cells(balls, (size_t)cells));
+    memset(balls->seated, 0, (size_t)cells * sizeof *balls->seated);
     return OK;
 }
 
@@ -63,24 +93,26 @@ static void cell_at(const Balls *balls, const uint32_t place[3], int64_t at[3]) 
     for (int a = 0; a < 3; a++) at[a] = (int64_t)((place[a] * (uint64_t)balls->cells[a]) >> 32);
 }
 
-static void cell_enter(Balls *balls, uint32_t i) {
+static Status cell_enter(Balls *balls, uint32_t i) {
     Ball *ball = &balls->ball[i];
     int64_t at[3];
+    memcpy(ball->anchor, ball->place, sizeof ball->anchor);
+    balls->coarse_anchor[i] = balls_coarse(ball->anchor);
     cell_at(balls, ball->anchor, at);
-    ball->cell = (int32_t)cell_index(balls, at);
-    ball->before = -1;
-    ball->next = balls->first[ball->cell];
-    if (ball->next >= 0) balls->ball[ball->next].before = (int32_t)i;
-    balls->first[ball->cell] = (int32_t)i;
+    ball->cell = (uint32_t)cell_index(balls, at);
+    ball->seat = balls->seated[ball->cell]++;
+    if (ball->seat == balls->seats) TRY(more_seats(balls));
+    balls->seat[ball->cell * balls->seats + ball->seat] = i;
+    return OK;
 }
 
+// The last takes the seat that is free now.
 static void cell_leave(Balls *balls, uint32_t i) {
     const Ball *ball = &balls->ball[i];
-    if (ball->before >= 0)
-        balls->ball[ball->before].next = ball->next;
-    else
-        balls->first[ball->cell] = ball->next;
-    if (ball->next >= 0) balls->ball[ball->next].before = ball->before;
+    uint32_t *seat = balls->seat + ball->cell * balls->seats;
+    const uint32_t last = seat[--balls->seated[ball->cell]];
+    seat[ball->seat] = last;
+    balls->ball[last].seat = ball->seat;
 }
 
 // The cells round `place`, each once; returns how many.
@@ -102,18 +134,25 @@ static int cells_round(const Balls *balls, const uint32_t place[3], int64_t cell
     return count;
 }
 
-// Those whose anchors are near that of i, into `found`.
+// The rule of who is in whose list; the same from both.
+static bool belong(const Balls *balls, uint32_t i, const uint32_t anchor[4], uint32_t j) {
+    const double range = contact_of(balls, i, j) + balls->skin;
+    return balls_distance2(balls, anchor, balls->ball[j].anchor) < range * range;
+}
+
+// Those who belong in the list of i, into `found`.
 static size_t search(const Balls *balls, uint32_t i) {
     int64_t cells[27];
     const int number = cells_round(balls, balls->ball[i].anchor, cells);
-    size_t count = 0;
+    size_t near = 0, count = 0;
     for (int c = 0; c < number; c++) {
-        for (int32_t j = balls->first[cells[c]]; j >= 0; j = balls->ball[j].next) {
-            const double range = contact_of(balls, i, (uint32_t)j) + balls->skin;
-            const double r2 = balls_distance2(balls, balls->ball[i].anchor, balls->ball[j].anchor);
-            balls->found[count] = (uint32_t)j;
-            count += (uint32_t)j != i && r2 < range * range;
-        }
+        near += balls->kernel->near(balls, i, balls->seat + (size_t)cells[c] * balls->seats,
+                                    balls->seated[cells[c]], balls->found + near);
+    }
+    for (size_t n = 0; n < near; n++) {
+        const uint32_t j = balls->found[n];
+        balls->found[count] = j;
+        count += j != i && belong(balls, i, balls->ball[i].anchor, j);
     }
     return count;
 }
@@ -169,26 +208,29 @@ static Status take_found(Balls *balls, uint32_t i, size_t count) {
 
 bool balls_refresh(Balls *balls, uint32_t i) {
     Ball *ball = &balls->ball[i];
-    for (uint32_t n = 0; n < ball->neighbours; n++) leave_list(balls, list_of(balls, i)[n], i);
+    uint32_t before[4];
+    memcpy(before, ball->anchor, sizeof before);
+    for (uint32_t n = 0; n < ball->neighbours; n++) {
+        const uint32_t j = list_of(balls, i)[n];
+        if (!belong(balls, i, ball->place, j)) leave_list(balls, j, i);
+    }
     cell_leave(balls, i);
-    memcpy(ball->anchor, ball->place, sizeof ball->anchor);
-    cell_enter(balls, i);
+    if (cell_enter(balls, i) != OK) return false;
     balls->rebuilds++;
     const size_t count = search(balls, i);
     if (take_found(balls, i, count) != OK) return false;
     for (size_t n = 0; n < count; n++) {
-        if (enter_list(balls, balls->found[n], i) != OK) return false;
+        const uint32_t j = balls->found[n];
+        if (!belong(balls, i, before, j) && enter_list(balls, j, i) != OK) return false;
     }
     return true;
 }
 
 Status balls_list(Balls *balls) {
     choose_skin(balls);
+    choose_far(balls);
     TRY(choose_cells(balls));
-    for (uint32_t i = 0; i < balls->count; i++) {
-        memcpy(balls->ball[i].anchor, balls->ball[i].place, sizeof balls->ball[i].anchor);
-        cell_enter(balls, i);
-    }
+    for (uint32_t i = 0; i < balls->count; i++) TRY(cell_enter(balls, i));
     for (uint32_t i = 0; i < balls->count; i++) TRY(take_found(balls, i, search(balls, i)));
     balls->rebuilds += balls->count;
     balls->listed = true;
@@ -199,8 +241,9 @@ bool balls_overlap_anywhere(const Balls *balls, uint32_t i, const uint32_t place
     int64_t cells[27];
     const int number = cells_round(balls, place, cells);
     for (int c = 0; c < number; c++) {
-        for (int32_t j = balls->first[cells[c]]; j >= 0; j = balls->ball[j].next) {
-            if ((uint32_t)j != i && balls_overlap(balls, i, place, (uint32_t)j)) return true;
+        const uint32_t *seat = balls->seat + (size_t)cells[c] * balls->seats;
+        for (uint32_t n = 0; n < balls->seated[cells[c]]; n++) {
+            if (seat[n] != i && balls_overlap(balls, i, place, seat[n])) return true;
         }
     }
     return false;
@@ -210,8 +253,9 @@ int64_t balls_energy_anywhere(const Balls *balls, uint32_t i, const uint32_t pla
     int64_t cells[27], sum = 0;
     const int number = cells_round(balls, place, cells);
     for (int c = 0; c < number; c++) {
-        for (int32_t j = balls->first[cells[c]]; j >= 0; j = balls->ball[j].next) {
-            if ((uint32_t)j != i) sum += balls_energy(balls, i, place, (uint32_t)j);
+        const uint32_t *seat = balls->seat + (size_t)cells[c] * balls->seats;
+        for (uint32_t n = 0; n < balls->seated[cells[c]]; n++) {
+            if (seat[n] != i) sum += balls_energy(balls, i, place, seat[n]);
         }
     }
     return sum;
