@@ -7,8 +7,9 @@
 
 #include <string.h>
 
-Status frame_create(FrameData *frame, size_t count) {
+Status frame_create(FrameData *frame, size_t count, bool oriented) {
     *frame = (FrameData){.count = count};
+    if (oriented) TRY(NEW_ARRAY(frame->orientation, 3 * count));
     TRY(NEW_ARRAY(frame->position, 3 * count));
     return NEW_ARRAY(frame->image, 3 * count);
 }
@@ -16,6 +17,7 @@ Status frame_create(FrameData *frame, size_t count) {
 void frame_free(FrameData *frame) {
     memory_free(frame->position);
     memory_free(frame->image);
+    memory_free(frame->orientation);
     *frame = (FrameData){.count = 0};
 }
 
@@ -24,6 +26,7 @@ void frame_take(FrameData *frame, const State *state, int64_t step, double time)
         for (size_t a = 0; a < 3; a++) {
             frame->position[3 * i + a] = state->position[a][i];
             frame->image[3 * i + a] = state->image[a][i];
+            if (frame->orientation) frame->orientation[3 * i + a] = state->orientation[a][i];
         }
     }
     for (int a = 0; a < 3; a++) frame->edges[a][a] = state->box.edge[a];
@@ -31,8 +34,14 @@ void frame_take(FrameData *frame, const State *state, int64_t step, double time)
     frame->time = time;
 }
 
+static bool same_axes(const FrameData *a, const FrameData *b) {
+    if (!a->orientation) return true;
+    return memcmp(a->orientation, b->orientation, 3 * a->count * sizeof *a->orientation) == 0;
+}
+
 bool frame_same(const FrameData *a, const FrameData *b) {
-    return memcmp(a->position, b->position, 3 * a->count * sizeof *a->position) == 0 &&
+    return same_axes(a, b) &&
+           memcmp(a->position, b->position, 3 * a->count * sizeof *a->position) == 0 &&
            memcmp(a->image, b->image, 3 * a->count * sizeof *a->image) == 0 &&
            memcmp(a->edges, b->edges, sizeof a->edges) == 0 && a->step == b->step &&
            memcmp(&a->time, &b->time, sizeof a->time) == 0;
@@ -45,10 +54,11 @@ typedef struct Piece {
     uint64_t place;
 } Piece;
 
-enum { PIECES = 5 };
+enum { PIECES_MOST = 6 };
 
-static void list_pieces(Piece pieces[PIECES], const FrameData *frame, const Layout *layout,
-                        int64_t index) {
+// How many there are.
+static int list_pieces(Piece pieces[PIECES_MOST], const FrameData *frame, const Layout *layout,
+                       int64_t index) {
     const uint64_t k = (uint64_t)index;
     const size_t vectors = 3 * frame->count * sizeof *frame->position;
     const size_t images = 3 * frame->count * sizeof *frame->image;
@@ -58,12 +68,15 @@ static void list_pieces(Piece pieces[PIECES], const FrameData *frame, const Layo
     pieces[2] = (Piece){(void *)frame->edges, edges, layout->edges + k * edges};
     pieces[3] = (Piece){(void *)&frame->step, eight, layout->step + k * eight};
     pieces[4] = (Piece){(void *)&frame->time, eight, layout->time + k * eight};
+    if (!frame->orientation) return 5;
+    pieces[5] = (Piece){frame->orientation, vectors, layout->orientation + k * vectors};
+    return 6;
 }
 
 // Of the frame's number and all its pieces; never 0, which says that nothing was written.
-static uint32_t checksum(const Piece pieces[PIECES], int64_t index) {
+static uint32_t checksum(const Piece *pieces, int count, int64_t index) {
     uint32_t crc = crc32c(0, &index, sizeof index);
-    for (int i = 0; i < PIECES; i++) crc = crc32c(crc, pieces[i].bytes, pieces[i].size);
+    for (int i = 0; i < count; i++) crc = crc32c(crc, pieces[i].bytes, pieces[i].size);
     return crc == 0 ? 1 : crc;
 }
 
@@ -73,12 +86,12 @@ static off_t crc_place(const Layout *layout, int64_t index) {
 
 Status frame_write(const FrameData *frame, int file, const Layout *layout, int64_t index,
                    const char *path) {
-    Piece pieces[PIECES];
-    list_pieces(pieces, frame, layout, index);
-    for (int i = 0; i < PIECES; i++) {
+    Piece pieces[PIECES_MOST];
+    const int count = list_pieces(pieces, frame, layout, index);
+    for (int i = 0; i < count; i++) {
         TRY(disk_write(file, pieces[i].bytes, pieces[i].size, (off_t)pieces[i].place, path));
     }
-    const uint32_t crc = checksum(pieces, index);
+    const uint32_t crc = checksum(pieces, count, index);
     return disk_write(file, &crc, sizeof crc, crc_place(layout, index), path);
 }
 
@@ -88,11 +101,11 @@ Status frame_read(FrameData *frame, int file, const Layout *layout, int64_t inde
     *there = false;
     TRY(disk_read(file, &crc, sizeof crc, crc_place(layout, index), path));
     if (crc == 0) return OK;
-    Piece pieces[PIECES];
-    list_pieces(pieces, frame, layout, index);
-    for (int i = 0; i < PIECES; i++) {
+    Piece pieces[PIECES_MOST];
+    const int count = list_pieces(pieces, frame, layout, index);
+    for (int i = 0; i < count; i++) {
         TRY(disk_read(file, pieces[i].bytes, pieces[i].size, (off_t)pieces[i].place, path));
     }
-    *there = crc == checksum(pieces, index);
+    *there = crc == checksum(pieces, count, index);
     return OK;
 }

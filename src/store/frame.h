@@ -7,14 +7,15 @@
 
 typedef struct FrameData {
     size_t count;
-    double *position; // [count][3], folded, in d
-    int32_t *image;   // [count][3]
+    double *position;    // [count][3], folded, in d
+    int32_t *image;      // [count][3]
+    double *orientation; // [count][3], unit vectors; NULL where no species has a body axis
     double edges[3][3];
     int64_t step;
     double time;
 } FrameData;
 
-Status frame_create(FrameData *frame, size_t count);
+Status frame_create(FrameData *frame, size_t count, bool oriented);
 void frame_free(FrameData *frame);
 void frame_take(FrameData *frame, const State *state, int64_t step, double time);
 bool frame_same(const FrameData *a, const FrameData *b); // bit for bit

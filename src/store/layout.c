@@ -69,8 +69,18 @@ static Status write_box(hid_t particles, hid_t position, Layout *layout) {
     return OK;
 }
 
-// What moves: position, image and box of each frame.
-static Status write_moving(hid_t particles, Layout *layout) {
+// Unit vectors along the body axes, an element of our own; only where a species has one.
+static Status write_orientation(hid_t particles, hid_t position, Layout *layout) {
+    const ImageShape vectors = {REALS, 3, {layout->frames, layout->particles, 3}};
+    hid_t orientation;
+    TRY(write_element(particles, "orientation", &orientation, &vectors, &layout->orientation));
+    TRY(share_times(position, orientation));
+    image_end(orientation);
+    return OK;
+}
+
+// What moves: position, image, body axes and box of each frame.
+static Status write_moving(hid_t particles, Layout *layout, const State *state) {
     const ImageShape vectors = {REALS, 3, {layout->frames, layout->particles, 3}};
     const ImageShape images = {INTEGERS, 3, {layout->frames, layout->particles, 3}};
     hid_t position, image;
@@ -78,6 +88,7 @@ static Status write_moving(hid_t particles, Layout *layout) {
     TRY(write_times(position, layout));
     TRY(write_element(particles, "image", &image, &images, &layout->image));
     TRY(share_times(position, image));
+    if (state->oriented) TRY(write_orientation(particles, position, layout));
     TRY(write_box(particles, position, layout));
     image_end(image);
     image_end(position);
@@ -110,11 +121,24 @@ static Status write_species_names(hid_t perrin, const System *system) {
     return image_labels(perrin, "species_names", names, system->species_count, NULL);
 }
 
+static Status write_species_bodies(hid_t perrin, const System *system) {
+    const ImageShape shape = {REALS, 1, {system->species_count}};
+    const char *shapes[SPECIES_MOST];
+    double lengths[SPECIES_MOST];
+    for (size_t i = 0; i < system->species_count; i++) {
+        shapes[i] = shape_names[system->species[i].shape];
+        lengths[i] = system->species[i].length;
+    }
+    TRY(image_labels(perrin, "species_shapes", shapes, system->species_count, NULL));
+    return image_numbers(perrin, "species_lengths", &shape, lengths, NULL);
+}
+
 static Status write_own(hid_t perrin, Layout *layout, const State *state) {
     const int64_t version = SEAL_VERSION, dimension = (int64_t)layout->dimension;
     TRY(image_integers_attribute(perrin, "format_version", &version, 1));
     TRY(image_integers_attribute(perrin, "dimension", &dimension, 1));
     TRY(write_species_names(perrin, &state->system));
+    TRY(write_species_bodies(perrin, &state->system));
     TRY(write_fixed(perrin, "diameter", REALS, layout, state->diameter, &layout->diameter));
     return write_fixed(perrin, "mass", REALS, layout, state->mass, &layout->mass);
 }
@@ -129,7 +153,7 @@ static Status write_contents(hid_t file, Layout *layout, const State *state) {
     TRY(image_group(file, "particles", &group));
     TRY(image_group(group, "trajectory", &particles));
     TRY(write_species(particles, layout, state));
-    TRY(write_moving(particles, layout));
+    TRY(write_moving(particles, layout, state));
     TRY(image_room(perrin, "crc32c", &crcs, &layout->crc));
     image_end(particles);
     image_end(group);
@@ -138,11 +162,11 @@ static Status write_contents(hid_t file, Layout *layout, const State *state) {
 }
 
 static uint64_t first_room(const Layout *layout) {
-    const uint64_t places[] = {layout->position, layout->image, layout->edges,
-                               layout->step,     layout->time,  layout->crc};
+    const uint64_t places[] = {layout->position, layout->image, layout->edges,      layout->step,
+                               layout->time,     layout->crc,   layout->orientation};
     uint64_t first = places[0];
     for (size_t i = 1; i < sizeof places / sizeof *places; i++) {
-        if (places[i] < first) first = places[i];
+        if (places[i] && places[i] < first) first = places[i];
     }
     return first;
 }
@@ -191,7 +215,7 @@ Status layout_check(Layout *layout, const Seal *seal, const char *path) {
         inside(layout->mass, n, 8, size) && inside(layout->position, all, 24, size) &&
         inside(layout->image, all, 12, size) && inside(layout->edges, frames, 72, size) &&
         inside(layout->step, frames, 8, size) && inside(layout->time, frames, 8, size) &&
-        inside(layout->crc, frames, 4, size);
+        inside(layout->crc, frames, 4, size) && inside(layout->orientation, all, 24, size);
     if (fits) return OK;
     return status_fail(BAD_DATA, "'%s' is damaged: it claims more than it holds", path);
 }

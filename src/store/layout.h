@@ -15,6 +15,7 @@ typedef struct Layout {
     uint64_t header;                  // bytes before the first frame's
     uint64_t species, diameter, mass; // places in the file, in bytes from its beginning
     uint64_t position, image, edges, step, time, crc;
+    uint64_t orientation; // 0: no species has a body axis
 } Layout;
 
 // The H5MD file up to the frames, and where they go. `layout` has plan, replica and frames set.

@@ -126,8 +126,8 @@ static Status open_in(Trajectory *trajectory, Store *store, const State *state, 
         trajectory->path = disk_path(&folder, name);
         status = trajectory->path ? OK : NO_MEMORY;
     }
-    if (status == OK) status = frame_create(&trajectory->mine, state->count);
-    if (status == OK) status = frame_create(&trajectory->disk, state->count);
+    if (status == OK) status = frame_create(&trajectory->mine, state->count, state->oriented);
+    if (status == OK) status = frame_create(&trajectory->disk, state->count, state->oriented);
     if (status == OK) status = open_file(trajectory, &folder, name, &image, done);
     disk_folder_close(&folder);
     image_free(&image);

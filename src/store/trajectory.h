@@ -12,7 +12,7 @@ typedef struct Trajectory Trajectory;
 // Opens the trajectory of a replica for its frames done, done + 1, ... of `frames` in all; makes
 // the file, with room for all, if there is none. `done` frames must be there and whole. Frames
 // that are already there beyond these are compared when they are written again.
-// `state` gives what stays: count, species, diameters, masses.
+// `state` gives what stays: count, species, shapes, diameters, masses.
 Status trajectory_open(Trajectory **out, Store *store, size_t replica, const State *state,
                        int64_t frames, int64_t done);
 
@@ -30,15 +30,17 @@ typedef struct TrajectoryContents {
     int dimension;
     size_t particles;
     int64_t frames;         // room in the file
+    bool oriented;          // frames have body axes
     const double *diameter; // [particles], in d
     const double *mass;     // [particles], in m
     const int32_t *species; // [particles]
 } TrajectoryContents;
 
 typedef struct TrajectoryFrame {
-    const double *position; // [particles][3], folded, in d
-    const int32_t *image;   // [particles][3]
-    double edges[3][3];     // of the box, in d
+    const double *position;    // [particles][3], folded, in d
+    const int32_t *image;      // [particles][3]
+    const double *orientation; // [particles][3], unit vectors; NULL unless oriented
+    double edges[3][3];        // of the box, in d
     int64_t step;
     double time;
 } TrajectoryFrame;

@@ -52,7 +52,7 @@ static Status read_fixed(TrajectoryFile *file) {
     TRY(NEW_ARRAY(file->diameter, n));
     TRY(NEW_ARRAY(file->mass, n));
     TRY(NEW_ARRAY(file->species, n));
-    TRY(frame_create(&file->frame, n));
+    TRY(frame_create(&file->frame, n, layout->orientation != 0));
     TRY(disk_read(file->file, file->diameter, n * 8, (off_t)layout->diameter, file->path));
     TRY(disk_read(file->file, file->mass, n * 8, (off_t)layout->mass, file->path));
     return disk_read(file->file, file->species, n * 4, (off_t)layout->species, file->path);
@@ -95,6 +95,7 @@ TrajectoryContents trajectory_file_contents(const TrajectoryFile *file) {
         .dimension = (int)file->layout.dimension,
         .particles = file->layout.particles,
         .frames = (int64_t)file->layout.frames,
+        .oriented = file->layout.orientation != 0,
         .diameter = file->diameter,
         .mass = file->mass,
         .species = file->species,
@@ -108,6 +109,7 @@ Status trajectory_file_frame(TrajectoryFile *file, int64_t index, TrajectoryFram
     *frame = (TrajectoryFrame){
         .position = file->frame.position,
         .image = file->frame.image,
+        .orientation = file->frame.orientation,
         .step = file->frame.step,
         .time = file->frame.time,
     };

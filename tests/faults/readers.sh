@@ -35,6 +35,15 @@ with h5py.File(run + "/trajectory/replica-0000.h5", "r") as file:
     assert list(file["h5md"].attrs["version"]) == [1, 1]
     position = file["particles/trajectory/position/value"]
     assert position.shape[2] == 3 and (file["perrin/crc32c"][:] != 0).all()
+    assert [len(file["perrin/species_" + what]) for what in ("names", "shapes", "lengths")] == [2, 2, 2]
+    if b"spherocylinder" in file["perrin/species_shapes"][:]:
+        orientation = file["particles/trajectory/orientation"]
+        assert orientation["value"].shape == position.shape
+        assert numpy.allclose((orientation["value"][:] ** 2).sum(axis=2), 1, atol=1e-12)
+        assert orientation["step"] == file["particles/trajectory/position/step"]
+        print("with body axes")
+    else:
+        assert "orientation" not in file["particles/trajectory"]
     assert numpy.isfinite(position[:]).all() and (numpy.diff(file["particles/trajectory/position/time"]) > 0).all()
 print(series, "series and", scalars, "quantities read by h5py")
 END

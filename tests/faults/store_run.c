@@ -35,10 +35,23 @@ static System some_system(int64_t particles) {
         .particles = particles,
         .packing_fraction = 0.2,
         .species_count = 2,
-        .species =
-            {{.name = "a", .shape = SHAPE_SPHERE, .diameter = 1, .mass = 1, .fraction = 0.5},
-             {.name = "b", .shape = SHAPE_SPHERE, .diameter = 2, .mass = 2, .fraction = 0.5}},
+        .species = {{.name = "a", .shape = SHAPE_SPHERE, .diameter = 1, .mass = 1, .fraction = 0.5},
+                    {.name = "b",
+                     .shape = SHAPE_SPHEROCYLINDER,
+                     .diameter = 2,
+                     .length = 3,
+                     .mass = 2,
+                     .fraction = 0.5}},
     };
+}
+
+// A turn by the angle whose cosine is 0.6, and the axes of space in turn.
+static void turn(State *state, size_t i) {
+    double *const *u = state->orientation;
+    const double x = u[0][i], y = u[1][i], z = u[2][i];
+    u[0][i] = z;
+    u[1][i] = 0.6 * x - 0.8 * y;
+    u[2][i] = 0.8 * x + 0.6 * y;
 }
 
 // Numbers that depend on all before them, so that a wrong resume cannot go unseen.
@@ -50,6 +63,7 @@ static void step(State *state, size_t replica) {
             if (!(*x >= 0 && *x < state->box.edge[a])) *x = 0.3;
         }
         state->image[0][i]++;
+        turn(state, i);
     }
     state->step++;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints one number for the trajectories given: FNV-1a over the bits of every step, time, position
-// and image, in order. It sees where particles went and nothing of how a file is laid out.
+// and image (and body axis, where there are any), in order. It sees where particles went and
+// nothing of how a file is laid out.
 #include "store/trajectory.h"
 
 #include <inttypes.h>
@@ -24,6 +25,8 @@ static Status hash_frames(uint64_t *hash, TrajectoryFile *file) {
         hash_bytes(hash, &frame.time, sizeof frame.time);
         hash_bytes(hash, frame.position, numbers * sizeof *frame.position);
         hash_bytes(hash, frame.image, numbers * sizeof *frame.image);
+        if (!contents.oriented) continue;
+        hash_bytes(hash, frame.orientation, numbers * sizeof *frame.orientation);
     }
     return OK;
 }

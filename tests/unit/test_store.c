@@ -454,6 +454,7 @@ static void has_frames(int64_t whole) {
                   status_sentence());
     const TrajectoryContents contents = trajectory_file_contents(file);
     ck_assert_int_eq(contents.dimension, 2);
+    ck_assert(!contents.oriented);
     ck_assert_double_eq(contents.diameter[contents.particles - 1], 1.4);
     ck_assert_int_eq(contents.species[contents.particles - 1], 1);
     for (int64_t k = 0; k < contents.frames; k++) {
@@ -478,6 +479,71 @@ START_TEST(frames_come_back_and_those_not_written_are_not_there) {
                   status_sentence());
     ck_assert_int_eq(write_frames(trajectory, state, 0, 3), OK);
     has_frames(3);
+    ck_assert_int_eq(trajectory_close(trajectory), OK);
+    state_free(state);
+    store_close(store);
+}
+END_TEST
+
+// Spheres and rods, whose axes turn from frame to frame.
+static State *some_bodies(size_t count) {
+    State *state = NULL;
+    System system = {
+        .dimension = 3,
+        .particles = (int64_t)count,
+        .number_density = 0.01,
+        .species_count = 2,
+        .species = {
+            {.name = "ball", .shape = SHAPE_SPHERE, .diameter = 3, .mass = 1, .fraction = 0.5},
+            {.name = "rod",
+             .shape = SHAPE_SPHEROCYLINDER,
+             .diameter = 1,
+             .length = 5,
+             .mass = 1,
+             .fraction = 0.5}}};
+    ck_assert_msg(state_create(&state, &system) == OK, "%s", status_sentence());
+    for (size_t i = 0; i < count; i++) state->diameter[i] = i < count / 2 ? 3 : 1;
+    return state;
+}
+
+static void aim(State *state, int64_t step) {
+    for (size_t i = 0; i < state->count; i++) {
+        const double angle = 0.1 * (double)step + (double)i;
+        state->orientation[0][i] = cos(angle);
+        state->orientation[1][i] = sin(angle);
+        state->orientation[2][i] = 0;
+    }
+    state->step = step;
+}
+
+START_TEST(body_axes_are_written_read_and_compared) {
+    Store *store = open_run();
+    State *state = some_bodies(20);
+    Trajectory *trajectory = NULL;
+    ck_assert_msg(trajectory_open(&trajectory, store, 2, state, 4, 0) == OK, "%s",
+                  status_sentence());
+    for (int64_t step = 0; step < 3; step++) {
+        aim(state, step);
+        ck_assert_int_eq(trajectory_write(trajectory, state, step, 1.0 * (double)step), OK);
+    }
+    ck_assert_int_eq(trajectory_close(trajectory), OK);
+    TrajectoryFile *file = NULL;
+    ck_assert_msg(trajectory_file_open(&file, path_of("trajectory/replica-0002.h5")) == OK, "%s",
+                  status_sentence());
+    ck_assert(trajectory_file_contents(file).oriented);
+    for (int64_t k = 0; k < 4; k++) {
+        TrajectoryFrame frame;
+        bool there;
+        ck_assert_int_eq(trajectory_file_frame(file, k, &frame, &there), OK);
+        ck_assert_int_eq(there, k < 3);
+        if (there) ck_assert_double_eq(frame.orientation[3 * 7 + 1], sin(0.1 * (double)k + 7));
+    }
+    trajectory_file_close(file);
+    ck_assert_int_eq(trajectory_open(&trajectory, store, 2, state, 4, 2), OK);
+    aim(state, 2);
+    state->orientation[2][19] = 1e-9;
+    ck_assert_int_eq(trajectory_write(trajectory, state, 2, 2), UNHEALTHY);
+    says("frame 2");
     ck_assert_int_eq(trajectory_close(trajectory), OK);
     state_free(state);
     store_close(store);
@@ -608,6 +674,7 @@ int main(void) {
     tcase_add_test(tests, the_same_results_are_the_same_bytes);
     tcase_add_test(tests, results_cut_or_changed_are_refused_in_a_sentence);
     tcase_add_test(tests, frames_come_back_and_those_not_written_are_not_there);
+    tcase_add_test(tests, body_axes_are_written_read_and_compared);
     tcase_add_test(tests, any_size_of_trajectory_is_written_and_read);
     tcase_add_test(tests, a_resumed_trajectory_compares_what_is_there_and_goes_on);
     tcase_add_test(tests, a_torn_frame_after_the_checkpoint_is_written_again_and_before_it_refused);
