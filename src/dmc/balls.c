@@ -159,7 +159,8 @@ static void set_coarse_bounds(Balls *balls) {
         const double radius = balls->radius[i] / longest * per_edge / RADIUS_SCALE;
         const uint64_t minus = (uint16_t) - (int32_t)rint(radius);
         const Ball *ball = &balls->ball[i];
-        balls->coarse[i] = balls_coarse(ball->place) | (balls->alike ? 0 : minus << 48);
+        balls->coarse[i] =
+            balls_coarse(ball->place) | (balls->alike || balls->soft ? 0 : minus << 48);
     }
 }
 

@@ -91,7 +91,8 @@ struct Balls {
     uint32_t *seat;           // [cells_most][seats] who they are
     uint64_t *coarse_anchor;  // [count]
     uint32_t far;             // square of a coarse distance of anchors beyond the range of lists
-    uint32_t *found;          // [count + NEIGHBOURS_AT_A_TIME] room for a search
+    uint32_t unfelt; // the same of places, beyond the range of soft balls before and after a trial
+    uint32_t *found; // [count + NEIGHBOURS_AT_A_TIME] room for a search
 
     uint64_t block;                                 // whose trials are drawn; UINT64_MAX: none
     uint32_t who[TRIALS_PER_BLOCK + 8];             // particle, and perhaps STRAYS

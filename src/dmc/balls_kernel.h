@@ -11,6 +11,8 @@
 #include <immintrin.h>
 #endif
 
+enum { FELT_AT_A_TIME = 128 }; // soft neighbours
+
 #define KERNEL static inline __attribute__((always_inline))
 
 // The trials of a block, drawn together.
@@ -102,8 +104,16 @@ KERNEL void draw(Balls *balls, const uint32_t *words, const uint32_t *metropolis
 
 // Coarse place of a trial, with plus the radius of the particle: the difference to a neighbour's
 // has the sum of the radii.
-KERNEL uint64_t coarse_trial(uint64_t own, const uint32_t to[4]) {
-    return balls_coarse(to) | (0x10000 - (own >> 48)) << 48;
+KERNEL uint64_t coarse_trial(const bool alike, uint64_t own, const uint32_t to[4]) {
+#if defined(__AVX2__)
+    const __m128i rounded = _mm_add_epi32(_mm_load_si128((const __m128i *)to),
+                                          _mm_setr_epi32(0x8000, 0x8000, 0x8000, 0));
+    const __m128i upper = _mm_srli_epi32(rounded, 16);
+    const uint64_t coarse = (uint64_t)_mm_cvtsi128_si64(_mm_packus_epi32(upper, upper));
+#else
+    const uint64_t coarse = balls_coarse(to);
+#endif
+    return alike ? coarse : coarse | (0x10000 - (own >> 48)) << 48;
 }
 
 // One bit for each of sixteen neighbours.
@@ -235,6 +245,52 @@ KERNEL bool overlaps(const bool alike, const Balls *balls, uint32_t i, const uin
     return false;
 }
 
+// Of ids, those whose coarse places, in the table, are not beyond `far` of `own`; the order stays.
+// Room for `count` + 8 ids is needed.
+
+#if defined(__AVX512F__)
+
+KERNEL size_t near_ids(const Balls *balls, const uint64_t *table, uint64_t own, uint32_t far,
+                       const uint32_t *ids, size_t count, uint32_t *near) {
+    const __m512i mine = _mm512_set1_epi64((int64_t)own);
+    const __m512i scale = _mm512_set1_epi64((int64_t)coarse_scales(balls));
+    size_t found = 0;
+    for (size_t n = 0; n < count; n += 8) {
+        const __m256i eight = _mm256_loadu_si256((const __m256i *)(ids + n));
+        const __m512i rows = _mm512_i32gather_epi64(eight, (const void *)table, 8);
+        const __m512i apart = _mm512_mulhrs_epi16(_mm512_sub_epi16(mine, rows), scale);
+        const __m512i two = _mm512_madd_epi16(apart, apart);
+        const __m512i r2 = _mm512_add_epi64(_mm512_srli_epi64(two, 32),
+                                            _mm512_and_si512(two, _mm512_set1_epi64(0xffffffff)));
+        const __mmask8 real = count - n < 8 ? (__mmask8)((1u << (count - n)) - 1) : 0xff;
+        const __mmask8 bits =
+            _mm512_mask_cmple_epu64_mask(real, r2, _mm512_set1_epi64((int64_t)far));
+        _mm256_mask_compressstoreu_epi32(near + found, bits, eight);
+        found += (size_t)__builtin_popcount(bits);
+    }
+    return found;
+}
+
+#else
+
+KERNEL size_t near_ids(const Balls *balls, const uint64_t *table, uint64_t own, uint32_t far,
+                       const uint32_t *ids, size_t count, uint32_t *near) {
+    size_t found = 0;
+    for (size_t n = 0; n < count; n++) {
+        uint32_t r2 = 0;
+        for (int a = 0; a < 3; a++) {
+            const int16_t apart = (int16_t)((own >> (16 * a)) - (table[ids[n]] >> (16 * a)));
+            const int32_t scaled = (apart * balls->coarse_scale[a]) >> 15;
+            r2 += (uint32_t)(scaled * scaled);
+        }
+        near[found] = ids[n];
+        found += r2 <= far;
+    }
+    return found;
+}
+
+#endif
+
 // Soft balls.
 
 #if defined(__AVX512F__)
@@ -267,15 +323,15 @@ KERNEL int64_t sum_of(__m512i x) {
                          _mm512_cvtepi32_epi64(_mm512_extracti64x4_epi64(x, 1))));
 }
 
-KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4]) {
-    const uint32_t *list = balls->list + i * balls->room;
+KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4],
+                           const uint32_t *list, size_t neighbours) {
     const Ball *ball = &balls->ball[i];
     const __m512 radius = _mm512_set1_ps(balls->radius_single[i]);
     int64_t rise = 0;
-    for (size_t n = 0; n < ball->neighbours; n += 16) {
-        const __m512i ids = _mm512_loadu_si512(list + n);
-        const size_t left = ball->neighbours - n;
+    for (size_t n = 0; n < neighbours; n += 16) {
+        const size_t left = neighbours - n;
         const __mmask16 real = left < 16 ? (__mmask16)((1u << left) - 1) : 0xffff;
+        const __m512i ids = _mm512_maskz_loadu_epi32(real, list + n);
         __m512i at[3];
         for (int a = 0; a < 3; a++) at[a] = _mm512_i32gather_epi32(ids, balls->column[a], 4);
         const __m512 contact =
@@ -321,16 +377,15 @@ KERNEL int64_t sum_of(__m256i x) {
     return _mm_cvtsi128_si64(two) + _mm_extract_epi64(two, 1);
 }
 
-KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4]) {
-    const uint32_t *list = balls->list + i * balls->room;
+KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4],
+                           const uint32_t *list, size_t neighbours) {
     const Ball *ball = &balls->ball[i];
     const __m256 radius = _mm256_set1_ps(balls->radius_single[i]);
     const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     int64_t rise = 0;
-    for (size_t n = 0; n < ball->neighbours; n += 8) {
-        const __m256i ids = _mm256_loadu_si256((const __m256i *)(list + n));
-        const __m256i real =
-            _mm256_cmpgt_epi32(_mm256_set1_epi32((int)(ball->neighbours - n)), lane);
+    for (size_t n = 0; n < neighbours; n += 8) {
+        const __m256i real = _mm256_cmpgt_epi32(_mm256_set1_epi32((int)(neighbours - n)), lane);
+        const __m256i ids = _mm256_and_si256(real, _mm256_loadu_si256((const __m256i *)(list + n)));
         __m256i at[3];
         for (int a = 0; a < 3; a++) {
             at[a] = _mm256_i32gather_epi32((const int *)balls->column[a], ids, 4);
@@ -348,10 +403,10 @@ KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4])
 
 #else
 
-KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4]) {
-    const uint32_t *list = balls->list + i * balls->room;
+KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4],
+                           const uint32_t *list, size_t neighbours) {
     int64_t rise = 0;
-    for (uint32_t n = 0; n < balls->ball[i].neighbours; n++) {
+    for (size_t n = 0; n < neighbours; n++) {
         rise += balls_energy(balls, i, to, list[n]) -
                 balls_energy(balls, i, balls->ball[i].place, list[n]);
     }
@@ -359,6 +414,21 @@ KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4])
 }
 
 #endif
+
+// By how much a trial raises the energy: of those that feel it, before or after.
+KERNEL int64_t rise_of(const Balls *balls, uint32_t i, const uint32_t to[4]) {
+    const uint32_t *list = balls->list + i * balls->room;
+    uint32_t near[FELT_AT_A_TIME + NEIGHBOURS_AT_A_TIME];
+    int64_t rise = 0;
+    for (size_t n = 0; n < balls->ball[i].neighbours; n += FELT_AT_A_TIME) {
+        const size_t left = balls->ball[i].neighbours - n;
+        const size_t count =
+            near_ids(balls, balls->coarse, balls->coarse[i], balls->unfelt, list + n,
+                     left < FELT_AT_A_TIME ? left : FELT_AT_A_TIME, near);
+        rise += energy_rise(balls, i, to, near, count);
+    }
+    return rise;
+}
 
 // One trial.
 
@@ -373,11 +443,27 @@ static __attribute__((noinline)) bool strayed_is_accepted(const Balls *balls, si
 
 // Is this farther from the particle's anchor than its list allows?
 KERNEL bool leaves_anchor(const Balls *balls, const Ball *ball, const uint32_t place[4]) {
+#if defined(__AVX2__)
+    const __m128i apart = _mm_sub_epi32(_mm_load_si128((const __m128i *)place),
+                                        _mm_load_si128((const __m128i *)ball->anchor));
+    const __m128 r = _mm_mul_ps(_mm_cvtepi32_ps(apart), _mm_loadu_ps(balls->unit_single));
+    return _mm_cvtss_f32(_mm_dp_ps(r, r, 0x71)) > balls->leash2;
+#else
     float r[3];
     for (int a = 0; a < 3; a++) {
         r[a] = (float)(int32_t)(place[a] - ball->anchor[a]) * balls->unit_single[a];
     }
     return r[0] * r[0] + r[1] * r[1] + r[2] * r[2] > balls->leash2;
+#endif
+}
+
+KERNEL void place_after(const Ball *ball, const int32_t move[4], uint32_t place[4]) {
+#if defined(__AVX2__)
+    _mm_store_si128((__m128i *)place, _mm_add_epi32(_mm_load_si128((const __m128i *)ball->place),
+                                                    _mm_load_si128((const __m128i *)move)));
+#else
+    for (int a = 0; a < 4; a++) place[a] = ball->place[a] + (uint32_t)move[a];
+#endif
 }
 
 KERNEL void count_move(const Balls *balls, const int32_t move[4], MoveTally *moves) {
@@ -409,16 +495,16 @@ KERNEL bool run_trials(const bool soft, const bool alike, Balls *balls, size_t f
         __builtin_prefetch(balls->list + ahead * balls->room);
         const Ball *ball = &balls->ball[i];
         MoveTally *tally = &moves[ball->species];
-        uint32_t place[4];
-        for (int a = 0; a < 4; a++) place[a] = ball->place[a] + (uint32_t)balls->move[t][a];
-        const uint64_t trial = coarse_trial(balls->coarse[i], place);
+        _Alignas(16) uint32_t place[4];
+        place_after(ball, balls->move[t], place);
+        const uint64_t trial = coarse_trial(soft || alike, balls->coarse[i], place);
         tally->trials++;
         if (leaves_anchor(balls, ball, place) && !strays) { // look round from where it is
             if (!balls_refresh(balls, i)) return false;
             strays = leaves_anchor(balls, ball, place);
         }
         if (strays ? !strayed_is_accepted(balls, t, i, place)
-            : soft ? energy_rise(balls, i, place) > balls->affordable[t]
+            : soft ? rise_of(balls, i, place) > balls->affordable[t]
                    : overlaps(alike, balls, i, place, trial)) {
             continue;
         }
@@ -435,52 +521,6 @@ KERNEL bool run_block(Balls *balls, size_t from, size_t to, MoveTally *moves) {
     return run_trials(false, false, balls, from, to, moves);
 }
 
-// Neighbours to be.
-
-#if defined(__AVX512F__)
-
-KERNEL size_t near_ids(const Balls *balls, uint32_t i, const uint32_t *ids, size_t count,
-                       uint32_t *near) {
-    const __m512i own = _mm512_set1_epi64((int64_t)balls->coarse_anchor[i]);
-    const __m512i scale = _mm512_set1_epi64((int64_t)coarse_scales(balls));
-    size_t found = 0;
-    for (size_t n = 0; n < count; n += 8) {
-        const __m256i eight = _mm256_loadu_si256((const __m256i *)(ids + n));
-        const __m512i rows = _mm512_i32gather_epi64(eight, (const void *)balls->coarse_anchor, 8);
-        const __m512i apart = _mm512_mulhrs_epi16(_mm512_sub_epi16(own, rows), scale);
-        const __m512i two = _mm512_madd_epi16(apart, apart);
-        const __m512i r2 = _mm512_add_epi64(_mm512_srli_epi64(two, 32),
-                                            _mm512_and_si512(two, _mm512_set1_epi64(0xffffffff)));
-        const __mmask8 real = count - n < 8 ? (__mmask8)((1u << (count - n)) - 1) : 0xff;
-        const __mmask8 bits =
-            _mm512_mask_cmple_epu64_mask(real, r2, _mm512_set1_epi64((int64_t)balls->far));
-        _mm256_mask_compressstoreu_epi32(near + found, bits, eight);
-        found += (size_t)__builtin_popcount(bits);
-    }
-    return found;
-}
-
-#else
-
-KERNEL size_t near_ids(const Balls *balls, uint32_t i, const uint32_t *ids, size_t count,
-                       uint32_t *near) {
-    size_t found = 0;
-    for (size_t n = 0; n < count; n++) {
-        uint32_t r2 = 0;
-        for (int a = 0; a < 3; a++) {
-            const int16_t apart = (int16_t)((balls->coarse_anchor[i] >> (16 * a)) -
-                                            (balls->coarse_anchor[ids[n]] >> (16 * a)));
-            const int32_t scaled = (apart * balls->coarse_scale[a]) >> 15;
-            r2 += (uint32_t)(scaled * scaled);
-        }
-        near[found] = ids[n];
-        found += r2 <= balls->far;
-    }
-    return found;
-}
-
-#endif
-
 #define BALLS_KERNEL(name)                                                                         \
     static void draw_here(Balls *balls, const uint32_t *words, const uint32_t *metropolis) {       \
         draw(balls, words, metropolis);                                                            \
@@ -490,6 +530,7 @@ KERNEL size_t near_ids(const Balls *balls, uint32_t i, const uint32_t *ids, size
     }                                                                                              \
     static size_t near_here(const Balls *balls, uint32_t i, const uint32_t *ids, size_t count,     \
                             uint32_t *near) {                                                      \
-        return near_ids(balls, i, ids, count, near);                                               \
+        return near_ids(balls, balls->coarse_anchor, balls->coarse_anchor[i], balls->far, ids,     \
+                        count, near);                                                              \
     }                                                                                              \
     const BallsKernel balls_kernel_##name = {draw_here, run_here, near_here};

@@ -11,8 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-static const double SKIN_LEAST = 0.2, SKIN_MOST = 1.6; // in diameters
-static const double SKIN_STEPS = 3.4;                  // between these, in longest steps
+static const double SKIN_LEAST = 0.3, SKIN_MOST = 1.6; // in diameters
+static const double SKIN_STEPS = 2.5;                  // between these, in longest steps
 static const double WIDER = 1.00001; // rounding of distances and of single precision
 
 static double contact_of(const Balls *balls, uint32_t i, uint32_t j) {
@@ -38,7 +38,10 @@ static void choose_far(Balls *balls) {
     }
     const double range =
         (balls->largest * balls->reach + balls->skin) / longest * COARSE_PER_EDGE + 4;
+    const double felt =
+        (balls->largest * balls->reach + balls->stride) / longest * COARSE_PER_EDGE + 4;
     balls->far = (uint32_t)fmin(range * range, 0x1p30 * 1.9);
+    balls->unfelt = (uint32_t)fmin(felt * felt, 0x1p30 * 1.9);
 }
 
 static Status make_cells(Balls *balls, size_t cells) {
