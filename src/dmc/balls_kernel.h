@@ -323,6 +323,7 @@ KERNEL int64_t sum_of(__m512i x) {
                          _mm512_cvtepi32_epi64(_mm512_extracti64x4_epi64(x, 1))));
 }
 
+// Lanes without a neighbour see the particle itself: infinite powers cost nothing, tiny ones would.
 KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4],
                            const uint32_t *list, size_t neighbours) {
     const Ball *ball = &balls->ball[i];
@@ -331,7 +332,7 @@ KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4],
     for (size_t n = 0; n < neighbours; n += 16) {
         const size_t left = neighbours - n;
         const __mmask16 real = left < 16 ? (__mmask16)((1u << left) - 1) : 0xffff;
-        const __m512i ids = _mm512_maskz_loadu_epi32(real, list + n);
+        const __m512i ids = _mm512_mask_loadu_epi32(_mm512_set1_epi32((int)i), real, list + n);
         __m512i at[3];
         for (int a = 0; a < 3; a++) at[a] = _mm512_i32gather_epi32(ids, balls->column[a], 4);
         const __m512 contact =
@@ -385,7 +386,8 @@ KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4],
     int64_t rise = 0;
     for (size_t n = 0; n < neighbours; n += 8) {
         const __m256i real = _mm256_cmpgt_epi32(_mm256_set1_epi32((int)(neighbours - n)), lane);
-        const __m256i ids = _mm256_and_si256(real, _mm256_loadu_si256((const __m256i *)(list + n)));
+        const __m256i ids = _mm256_blendv_epi8(
+            _mm256_set1_epi32((int)i), _mm256_loadu_si256((const __m256i *)(list + n)), real);
         __m256i at[3];
         for (int a = 0; a < 3; a++) {
             at[a] = _mm256_i32gather_epi32((const int *)balls->column[a], ids, 4);
