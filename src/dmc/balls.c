@@ -227,6 +227,7 @@ static Status create(Chain **out, const ChainSettings *settings, State *state, R
 
 static void set_amplitude(Chain *chain, size_t species, const Amplitude *amplitude) {
     Balls *balls = balls_of(chain);
+    if (amplitude->parallel == balls->longest_of[species]) return;
     for (int a = 0; a < balls->dimension; a++) {
         const double fraction = amplitude->parallel / balls->state->box.edge[a];
         balls->step[species][a] = (float)(2 * fraction);
