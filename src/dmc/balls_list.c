@@ -234,6 +234,7 @@ Status balls_list(Balls *balls) {
     choose_far(balls);
     TRY(choose_cells(balls));
     for (uint32_t i = 0; i < balls->count; i++) TRY(cell_enter(balls, i));
+    TRY(make_room(balls, NEIGHBOURS_AT_A_TIME));
     for (uint32_t i = 0; i < balls->count; i++) TRY(take_found(balls, i, search(balls, i)));
     balls->rebuilds += balls->count;
     balls->listed = true;
