@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Run files and plans: what is written reads back equal, what is left out gets its default, what
 // differs is told. Broken run files are in tests/cli/.
+#include "observe.h"
+
 #include "config/config.h"
 
 #include "base/memory.h"
@@ -67,6 +69,18 @@ START_TEST(a_written_plan_reads_back_equal) {
 }
 END_TEST
 
+static bool observable_of_discs(const ObservableKind *kind) {
+    const System discs = system_of(2, 100, 0.5, 1);
+    const Clock clock = {.tick = 0.01,
+                         .ticks = 100,
+                         .ticks_per_step = 1,
+                         .unit = "d^2/D0",
+                         .stage = "rest",
+                         .flies = true};
+    const Settings settings = settings_of(&kind->options);
+    return !kind->check || kind->check(&settings, &discs, &clock) == OK;
+}
+
 START_TEST(a_plan_of_every_observable_reads_back_equal) {
     char text[4096];
     size_t length = (size_t)snprintf(text, sizeof text,
@@ -75,6 +89,7 @@ START_TEST(a_plan_of_every_observable_reads_back_equal) {
                                      "dynamics: {method: event-driven}\n"
                                      "protocol:\n  - stage: rest\n    time: 1\n    observe:\n");
     for (size_t k = 0; observable_kinds[k]; k++) {
+        if (!observable_of_discs(observable_kinds[k])) continue;
         length += (size_t)snprintf(text + length, sizeof text - length, "      - %s\n",
                                    observable_kinds[k]->name);
     }
