@@ -78,7 +78,7 @@ static void watch(Session *session, bool quiet) {
 static void print_end(const Results *results, const char *directory) {
     const char *speed = results_find_fact(results, "ns_per_particle_tick");
     const char *seconds = results_find_fact(results, "wall_seconds");
-    fprintf(stderr, "done in %s s (%s ns per particle and tick)\n", seconds, speed);
+    fprintf(stderr, "done in %s s (%s ns per particle step)\n", seconds, speed);
     for (size_t i = 0; i < results->health_count; i++) {
         const ResultCounter *counter = &results->health[i];
         if (isnan(counter->limit)) continue;

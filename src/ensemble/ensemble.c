@@ -149,7 +149,7 @@ EnsembleProgress ensemble_progress(const Ensemble *ensemble) {
         count_unit(&progress, unit, &least);
         done += unit->fraction;
         done_now += unit->fraction - unit->fraction_at_start;
-        ticks += unit->particle_ticks;
+        ticks += unit->particle_steps;
     }
     pthread_mutex_unlock(mutex);
     progress.fraction = done / (double)replicas;
@@ -174,11 +174,11 @@ static Status put_health(const EnsembleShared *shared) {
 }
 
 static Status put_speed(const EnsembleShared *shared) {
-    double seconds = 0, ticks = 0, packing = 0;
+    double seconds = 0, steps = 0, packing = 0;
     for (size_t r = 0; r < shared->results->replicas; r++) {
         seconds += shared->units[r].cpu_seconds;
-        ticks +=
-            (double)shared->units[r].health.tally.windows * (double)shared->plan->system.particles;
+        steps += tally_particle_steps(&shared->units[r].health.tally,
+                                      (double)shared->plan->system.particles);
         packing += shared->units[r].packing_seconds;
     }
     char text[64];
@@ -186,7 +186,7 @@ static Status put_speed(const EnsembleShared *shared) {
     TRY(results_put_fact(shared->results, "cpu_seconds", text));
     snprintf(text, sizeof text, "%.3f", packing);
     TRY(results_put_fact(shared->results, "packing_seconds", text));
-    snprintf(text, sizeof text, "%.2f", ticks > 0 ? 1e9 * seconds / ticks : 0.0);
+    snprintf(text, sizeof text, "%.2f", steps > 0 ? 1e9 * seconds / steps : 0.0);
     return results_put_fact(shared->results, "ns_per_particle_tick", text);
 }
 

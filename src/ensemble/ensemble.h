@@ -24,7 +24,7 @@ typedef struct EnsembleProgress {
     double fraction;     // of the work, 0 to 1
     double seconds;      // wall time since the start
     double seconds_left; // estimated; NaN at first
-    double rate;         // particle ticks per wall second, all threads
+    double rate;         // particle steps (trials, in Monte Carlo) per wall second, all threads
     size_t replicas, running, finished;
     const char *stage; // of the replica that is furthest behind among those running
     double stage_time; // in stage_unit

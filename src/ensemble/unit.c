@@ -95,13 +95,13 @@ static void tell_start(Run *run) {
     pthread_mutex_unlock(&run->shared->mutex);
 }
 
-static void tell_progress(Run *run, uint64_t windows) {
+static void tell_progress(Run *run, double particle_steps) {
     const Plan *plan = run->shared->plan;
     const size_t stage = replica_stage(run->replica);
     Unit *unit = &run->shared->units[run->index];
     pthread_mutex_lock(&run->shared->mutex);
     unit->fraction = replica_progress(run->replica);
-    unit->particle_ticks += (double)windows * (double)plan->system.particles;
+    unit->particle_steps += particle_steps;
     if (stage < plan->stage_count) {
         unit->stage = plan->stages[stage].name;
         unit->stage_time = replica_stage_time(run->replica);
@@ -110,10 +110,15 @@ static void tell_progress(Run *run, uint64_t windows) {
     pthread_mutex_unlock(&run->shared->mutex);
 }
 
+static double particle_steps(const Run *run) {
+    const Tally tally = replica_tally(run->replica);
+    return tally_particle_steps(&tally, (double)run->shared->plan->system.particles);
+}
+
 static Status advance(Run *run) {
-    const uint64_t before = replica_tally(run->replica).windows;
+    const double before = particle_steps(run);
     TRY(replica_advance(run->replica));
-    tell_progress(run, replica_tally(run->replica).windows - before);
+    tell_progress(run, particle_steps(run) - before);
     return OK;
 }
 
@@ -176,6 +181,9 @@ Status unit_run(EnsembleShared *shared, size_t replica) {
 
 Status unit_health_put(Results *results, const UnitHealth *health) {
     const Tally *tally = &health->tally;
+    const double trials = (double)tally_trials(tally);
+    double accepted = 0;
+    for (size_t s = 0; s < SPECIES_MOST; s++) accepted += (double)tally->moves[s].accepted;
     const struct {
         const char *name, *about;
         double value, limit;
@@ -197,6 +205,9 @@ Status unit_health_put(Results *results, const UnitHealth *health) {
         {"list_rebuilds", "rebuilds of the neighbour list", (double)tally->rebuilds, NAN},
         {"replays", "windows replayed since a particle outran the list", (double)tally->replays,
          NAN},
+        {"trials", "trial moves of Monte Carlo", trials, NAN},
+        {"rejected_fraction", "fraction of the trial moves that were rejected",
+         trials > 0 ? 1 - accepted / trials : 0, NAN},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         TRY(results_put_health(results, rows[i].name, rows[i].about, rows[i].limit, rows[i].value));

@@ -20,7 +20,7 @@ typedef struct UnitHealth {
 typedef struct Unit {
     bool running, finished;
     double fraction, fraction_at_start; // of its work
-    double particle_ticks;              // done in this process
+    double particle_steps;              // done in this process
     double cpu_seconds;                 // when finished: over all sessions, packing apart
     double packing_seconds;
     const char *stage; // of the plan

@@ -51,3 +51,13 @@ void tally_add(Tally *sum, const Tally *more) {
     sum->windows += more->windows;
     for (size_t s = 0; s < SPECIES_MOST; s++) tally_add_moves(&sum->moves[s], &more->moves[s]);
 }
+
+uint64_t tally_trials(const Tally *tally) {
+    uint64_t sum = 0;
+    for (size_t s = 0; s < SPECIES_MOST; s++) sum += tally->moves[s].trials;
+    return sum;
+}
+
+double tally_particle_steps(const Tally *tally, double particles) {
+    return (double)tally->windows * particles + (double)tally_trials(tally);
+}

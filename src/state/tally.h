@@ -39,5 +39,8 @@ typedef struct Tally {
 // may differ after a resume and never reach a result.
 void tally_archive(Tally *tally, Archive *archive);
 void tally_add(Tally *sum, const Tally *more);
+// Windows times particles, and trials: the work done.
+double tally_particle_steps(const Tally *tally, double particles);
+uint64_t tally_trials(const Tally *tally); // of all species
 void tally_archive_moves(MoveTally *moves, Archive *archive);
 void tally_add_moves(MoveTally *sum, const MoveTally *more);
