@@ -7,6 +7,8 @@
 // ch. 2),
 //   P V/(N kT) = 1 + sum over pairs ab of w_ab g_ab(1),
 //   w_ab = Omega/(dim N V) * sum over the pairs i in a, j in b of d_ij^dim, Omega = 2 pi or 4 pi.
+// Bodies with an axis touch at many distances and soft ones at none: they have g(r) only, that of
+// their centres.
 #include "base/constants.h"
 #include "base/memory.h"
 #include "observables/labels.h"
@@ -85,7 +87,7 @@ typedef struct PairDistribution {
     Observer observer;
     size_t species_count;
     Histogram far;  // over r, in d
-    Histogram near; // over r/d_ij - 1
+    Histogram near; // over r/d_ij - 1; no bins where there is no contact distance
 } PairDistribution;
 
 static const double USUAL_RANGE = 5; // d: where g(r) of a fluid is close to 1
@@ -94,6 +96,15 @@ static double range_for(const PairSettings *settings, const Box *box) {
     double half = box->edge[0] / 2;
     for (int a = 1; a < box->dimension; a++) half = fmin(half, box->edge[a] / 2);
     return settings->last > 0 ? settings->last : fmin(USUAL_RANGE, half);
+}
+
+// Do all pairs touch at (d_i + d_j)/2?
+static bool has_contact(const System *system) {
+    for (size_t s = 0; s < system->species_count; s++) {
+        const ShapeKind shape = (ShapeKind)system->species[s].shape;
+        if (shape_is_oriented(shape) || !shape_is_hard(shape)) return false;
+    }
+    return true;
 }
 
 static Status check(const Settings *settings_, const System *system, const Clock *clock) {
@@ -111,7 +122,7 @@ static Status check(const Settings *settings_, const System *system, const Clock
                            "%g, beyond which a particle meets its own images; make it shorter",
                            settings->last, shortest);
     }
-    if (settings->contact_last * widest > shortest / 2) {
+    if (has_contact(system) && settings->contact_last * widest > shortest / 2) {
         return status_fail(BAD_DATA,
                            "pair_distribution: contact.last = %g diameters of %g exceed half of "
                            "the box edge %g; take more particles",
@@ -162,12 +173,13 @@ static Status create(Observer **out, const Settings *settings_, const State *sta
     self->far = (Histogram){.period = looks_period(clock, settings->looks),
                             .spacing = settings->spacing,
                             .bins = bins_for(last, settings->spacing)};
-    self->near =
-        (Histogram){.period = looks_period(clock, settings->contact_looks),
-                    .spacing = settings->contact_spacing,
-                    .bins = bins_for(settings->contact_last - 1, settings->contact_spacing)};
+    if (has_contact(&state->system))
+        self->near =
+            (Histogram){.period = looks_period(clock, settings->contact_looks),
+                        .spacing = settings->contact_spacing,
+                        .bins = bins_for(settings->contact_last - 1, settings->contact_spacing)};
     Status status = make_histogram(&self->far, state, (double)self->far.bins * self->far.spacing);
-    if (status == OK) {
+    if (status == OK && self->near.bins > 0) {
         status = make_histogram(&self->near, state, contact_range(state, &self->near));
     }
     if (status != OK) {
@@ -181,6 +193,7 @@ static Status create(Observer **out, const Settings *settings_, const State *sta
 static int64_t next(const Observer *observer, int64_t after) {
     const PairDistribution *self = (const PairDistribution *)observer;
     const int64_t far = looks_next(&observer->clock, self->far.period, after);
+    if (self->near.bins == 0) return far;
     const int64_t near = looks_next(&observer->clock, self->near.period, after);
     return far < near ? far : near;
 }
@@ -213,7 +226,8 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
     (void)tally;
     PairDistribution *self = (PairDistribution *)observer;
     if (tick % self->far.period == 0) count_pairs(&self->far, state, self->species_count, false);
-    if (tick % self->near.period == 0) count_pairs(&self->near, state, self->species_count, true);
+    if (self->near.bins > 0 && tick % self->near.period == 0)
+        count_pairs(&self->near, state, self->species_count, true);
     return OK;
 }
 
@@ -349,8 +363,11 @@ static Status write(const Observer *observer, const State *state, Results *resul
     if (status == OK) {
         status = put_distribution(self, state, &labels, values, centres, results, replica);
     }
-    if (status == OK) status = put_contact(self, state, &labels, values, centres, results, replica);
-    if (status == OK) status = put_weights(self, state, &labels, results, replica);
+    const bool contact = self->near.bins > 0;
+    if (status == OK && contact) {
+        status = put_contact(self, state, &labels, values, centres, results, replica);
+    }
+    if (status == OK && contact) status = put_weights(self, state, &labels, results, replica);
     memory_free(values);
     memory_free(centres);
     return status;

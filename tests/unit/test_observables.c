@@ -695,6 +695,81 @@ START_TEST(snapshot_is_the_last_configuration) {
 }
 END_TEST
 
+// Over all pairs and with the library's pow. _i: exponent 36, 12 or 7.
+START_TEST(energy_agrees_with_its_slow_twin) {
+    static const double exponents[] = {36, 12, 7};
+    const double n = exponents[_i];
+    System system = soft_system(150, n);
+    State *state = new_state(&system);
+    for (size_t i = 0; i < state->count; i++) state->diameter[i] = 0.9 + 0.002 * (double)i;
+    const Clock clock = clock_of(10, 1);
+    const ObservableKind *kind = &observable_energy;
+    const Settings settings = settings_of(&kind->options);
+    Observer *observer = new_observer(kind, &settings, state, &clock);
+    watch(observer, state, scatter_at, -1, clock.ticks);
+    Results *results = written(observer, state);
+    const ResultSeries *series = series_of(results, "quiescent", "energy");
+    double sum = 0, half = state->box.edge[0] / 2;
+    for (int64_t t = 1; t <= 10; t++) {
+        scatter_at(state, t);
+        double expected = 0, left_out = 0;
+        for (size_t i = 0; i < state->count; i++) {
+            for (size_t j = 0; j < i; j++) {
+                const double r = nearest_distance(state, i, j);
+                const double u = pow((state->diameter[i] + state->diameter[j]) / 2 / r, n);
+                *(r < half && u > 5e-7 ? &expected : &left_out) += u / 150;
+            }
+        }
+        const double got = series->values[t - 1];
+        ck_assert_double_le(fabs(got - expected), left_out + 1e-12 * expected);
+        ck_assert_double_gt(got, 0);
+        sum += got;
+    }
+    const double energy = scalar_of(results, "quiescent", "energy");
+    ck_assert_double_eq_tol(energy / (sum / 10), 1, 1e-12);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "compressibility_factor_virial"),
+                            1 + n * energy / 3, 1e-9 * energy);
+    results_free(results);
+    kind->free(observer);
+    state_free(state);
+}
+END_TEST
+
+START_TEST(energy_is_refused_where_there_is_none) {
+    const System hard = system_of(3, 100, 0.4, 1);
+    System two = soft_system(100, 36);
+    two.species[1] = two.species[0];
+    two.species_count = 2;
+    two.species[1].exponent = 12;
+    const Clock clock = clock_of(100, 1);
+    const Settings settings = settings_of(&observable_energy.options);
+    ck_assert_int_eq(observable_energy.check(&settings, &hard, &clock), BAD_DATA);
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "is hard"));
+    ck_assert_int_eq(observable_energy.check(&settings, &two, &clock), BAD_DATA);
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "one whole number"));
+}
+END_TEST
+
+// _i: soft spheres, or bodies with an axis.
+START_TEST(what_has_no_contact_distance_has_no_contact_values) {
+    System system = _i == 0 ? soft_system(100, 36) : oriented_system(100, 2);
+    State *state = new_state(&system);
+    const Clock clock = clock_of(100, 1);
+    const ObservableKind *kind = &observable_pair_distribution;
+    const Settings settings = settings_of(&kind->options);
+    ck_assert_int_eq(kind->check(&settings, &system, &clock), OK);
+    Observer *observer = new_observer(kind, &settings, state, &clock);
+    watch(observer, state, scatter_at, -1, clock.ticks);
+    Results *results = written(observer, state);
+    series_of(results, "quiescent", "pair_distribution");
+    ck_assert_ptr_null(results_find_series(results, "quiescent", "contact_distribution"));
+    ck_assert_ptr_null(results_find_series(results, "quiescent", "contact_weight"));
+    results_free(results);
+    kind->free(observer);
+    state_free(state);
+}
+END_TEST
+
 static void expect_refusal(const ObservableKind *kind, const char *option, double value,
                            const char *words) {
     const System system = system_of(2, 100, 0.4, 2);
@@ -752,6 +827,9 @@ static Suite *suite(void) {
     tcase_add_test(c, pressure_is_that_of_the_collisions_told);
     tcase_add_test(c, normal_velocities_are_maxwellian_whatever_the_mass);
     tcase_add_test(c, snapshot_is_the_last_configuration);
+    tcase_add_loop_test(c, energy_agrees_with_its_slow_twin, 0, 3);
+    tcase_add_test(c, energy_is_refused_where_there_is_none);
+    tcase_add_loop_test(c, what_has_no_contact_distance_has_no_contact_values, 0, 2);
     tcase_add_test(c, what_cannot_be_measured_is_refused_with_a_sentence);
     tcase_add_test(c, pairs_of_species_are_numbered_as_they_are_named);
     suite_add_tcase(s, c);
