@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From nothing to a valid State: draw sizes, put species at random on a lattice with diameters
-// scaled down, melt it as a fluid, and let the diameters grow at a constant rate while the
-// event-driven dynamics runs (Lubachevsky and Stillinger, J. Stat. Phys. 60, 561, 1990). Growing
-// heats the particles; their velocities are drawn anew often enough for that not to matter.
+// From nothing to a valid State. Discs and spheres: draw sizes, put species at random on a lattice
+// with diameters scaled down, melt it as a fluid, and let the diameters grow at a constant rate
+// while the event-driven dynamics runs (Lubachevsky and Stillinger, J. Stat. Phys. 60, 561, 1990).
+// Growing heats the particles; their velocities are drawn anew often enough for that not to matter.
+// Soft spheres begin as hard ones, of a density that these reach easily. Bodies with an axis are
+// compressed by Monte Carlo (compress.c). A crystal is left for the first stage to melt.
 #include "packing/packing.h"
 
 #include "base/memory.h"
+#include "dmc/dmc.h"
 #include "edbd/edbd.h"
+#include "packing/compress.h"
+#include "packing/crystal.h"
 #include "packing/lattice.h"
 
 #include <math.h>
@@ -28,16 +33,92 @@ static const double MARGIN = 1e-10;     // grown beyond the target, so that cont
 // Packing fractions that growth at this rate reaches; above, everything jams or must crystallise.
 static const double EQUAL_MOST[2] = {0.86, 0.60}, UNEQUAL_MOST[2] = {0.83, 0.62};
 
-static bool sizes_differ(const System *system) {
+// Densities that compression of bodies from a dilute disorder reaches in reasonable time: packing
+// fraction of spherocylinders and spheres, number density of platelets in 1/d^3.
+static const double RODS_MOST = 0.5, PLATELETS_MOST = 5;
+static const double SOFT_PACKING = 0.5; // of the hard spheres that soft ones begin as
+
+static bool has_shape(const System *system, ShapeKind shape) {
     for (size_t s = 0; s < system->species_count; s++) {
-        const Species *species = &system->species[s];
-        if (species->spread != SPREAD_NONE && species->spread_width > 0) return true;
-        if (species->diameter != system->species[0].diameter) return true;
+        if (system->species[s].shape == (int64_t)shape) return true;
     }
     return false;
 }
 
-Status packing_check(const System *system) {
+static bool sizes_spread(const System *system) {
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Species *species = &system->species[s];
+        if (species->spread != SPREAD_NONE && species->spread_width > 0) return true;
+    }
+    return false;
+}
+
+static bool sizes_differ(const System *system) {
+    for (size_t s = 1; s < system->species_count; s++) {
+        if (system->species[s].diameter != system->species[0].diameter) return true;
+    }
+    return sizes_spread(system);
+}
+
+// The smallest upright cylinder with room for every body.
+static Body largest_body(const System *system) {
+    Body largest = {.shape = SHAPE_SPHEROCYLINDER};
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Species *species = &system->species[s];
+        largest.diameter = fmax(largest.diameter, species->diameter);
+        largest.length = fmax(largest.length, species->length);
+    }
+    return largest;
+}
+
+static Status find_layers(Layers *layers, const System *system) {
+    const Body body = largest_body(system);
+    const Box box = system_box(system);
+    return crystal_layers(layers, &box, (size_t)system->particles, body.diameter,
+                          shape_reach(&body));
+}
+
+// Upright platelets overlap nowhere.
+static Status check_crystal_of_bodies(const System *system) {
+    Layers layers;
+    if (!has_shape(system, SHAPE_PLATELET)) return find_layers(&layers, system);
+    if (!has_shape(system, SHAPE_SPHERE)) return OK;
+    return status_fail(BAD_DATA, "start = crystal: there is none of platelets with spheres");
+}
+
+static Status check_bodies(const System *system) {
+    TRY(chain_check(system));
+    if (sizes_spread(system)) {
+        return status_fail(BAD_DATA, "spread: bodies with an axis have one size in each species");
+    }
+    if (system->start == START_CRYSTAL) return check_crystal_of_bodies(system);
+    const double phi = system_packing_fraction(system), density = system_number_density(system);
+    if (phi > RODS_MOST) {
+        return status_fail(BAD_DATA,
+                           "packing_fraction = %.4g exceeds %.2f, up to which bodies are "
+                           "compressed from disorder; use start: crystal",
+                           phi, RODS_MOST);
+    }
+    if (!has_shape(system, SHAPE_PLATELET) || density <= PLATELETS_MOST) return OK;
+    return status_fail(BAD_DATA,
+                       "number_density = %.4g exceeds %g, up to which platelets are compressed "
+                       "from disorder; use start: crystal",
+                       density, PLATELETS_MOST);
+}
+
+static Status check_crystal_of_balls(const System *system) {
+    if (has_shape(system, SHAPE_SOFT_SPHERE)) return OK;
+    const Box box = system_box(system);
+    const Lattice lattice = lattice_best(&box, (size_t)system->particles);
+    const Body body = largest_body(system);
+    if (!sizes_spread(system) && lattice.nearest > body.diameter) return OK;
+    return status_fail(BAD_DATA,
+                       "start = crystal: no lattice in this box has room for these particles; "
+                       "another number of them or start: compressed may");
+}
+
+static Status check_swelling(const System *system) {
+    if (has_shape(system, SHAPE_SOFT_SPHERE)) return OK;
     const double phi = system_packing_fraction(system);
     const int flat = system->dimension == 2;
     const bool differ = sizes_differ(system);
@@ -47,6 +128,11 @@ Status packing_check(const System *system) {
                        "packing_fraction = %.4g exceeds %.2f, up to which swelling packs "
                        "%s %s in disorder",
                        phi, most, differ ? "unequal" : "equal", flat ? "discs" : "spheres");
+}
+
+Status packing_check(const System *system) {
+    if (system_is_oriented(system)) return check_bodies(system);
+    return system->start == START_CRYSTAL ? check_crystal_of_balls(system) : check_swelling(system);
 }
 
 // Relative deviation of a diameter from its mean. The Gaussian is cut at three widths.
@@ -78,18 +164,27 @@ static void draw_diameters(State *state, RngKey key) {
     for (size_t i = 0; i < state->count; i++) state->diameter[i] *= factor;
 }
 
-// Every particle on a lattice site drawn at random; sites may be left over.
-static Status place(State *state, RngKey key, const Lattice *lattice) {
-    const size_t sites = lattice_sites(lattice);
+// The numbers below `sites` at random, as many as there are particles; some may be left over.
+static Status draw_sites(uint32_t **out, size_t particles, size_t sites, RngKey key) {
     uint32_t *site = NULL;
     TRY(NEW_ARRAY(site, sites));
     for (size_t s = 0; s < sites; s++) site[s] = (uint32_t)s;
     Rng rng = rng_open(key, STREAM_PACKING, 0, 0);
-    for (size_t i = 0; i < state->count; i++) {
+    for (size_t i = 0; i < particles; i++) {
         const size_t other = i + rng_below(&rng, sites - i);
         const uint32_t swap = site[i];
         site[i] = site[other];
         site[other] = swap;
+    }
+    *out = site;
+    return OK;
+}
+
+// Every particle on a lattice site drawn at random.
+static Status place(State *state, RngKey key, const Lattice *lattice) {
+    uint32_t *site = NULL;
+    TRY(draw_sites(&site, state->count, lattice_sites(lattice), key));
+    for (size_t i = 0; i < state->count; i++) {
         double position[3];
         lattice_site(lattice, site[i], position);
         for (int a = 0; a < state->box.dimension; a++) state->position[a][i] = position[a];
@@ -211,12 +306,68 @@ static Status grow(State *state, RngKey key, const Lattice *lattice, const atomi
                        system_packing_fraction(&state->system), status_sentence());
 }
 
-static Status pack(State *state, RngKey key, const atomic_int *stop, PackingReport *report) {
-    draw_diameters(state, key);
+static double soft_scale(const State *state) {
+    if (!has_shape(&state->system, SHAPE_SOFT_SPHERE)) return 1;
+    return fmin(1, cbrt(SOFT_PACKING / state_packing_fraction(state)));
+}
+
+static void scale_diameters(State *state, double scale) {
+    for (size_t i = 0; i < state->count; i++) state->diameter[i] *= scale;
+}
+
+static Status pack_balls(State *state, RngKey key, const atomic_int *stop, PackingReport *report) {
     const Lattice lattice = lattice_best(&state->box, state->count);
+    if (state->system.start == START_CRYSTAL) return place(state, key, &lattice);
+    const double soft = soft_scale(state);
+    if (soft < 1) scale_diameters(state, soft);
     forget_masses(state);
     report->lattice_scale = starting_scale(state, &lattice);
     TRY(grow(state, key, &lattice, stop, report));
+    if (soft < 1) draw_diameters(state, key);
+    return OK;
+}
+
+static void place_anywhere(State *state, RngKey key) {
+    for (size_t i = 0; i < state->count; i++) {
+        Rng rng = rng_open(key, STREAM_PACKING, 0, i);
+        for (int a = 0; a < 3; a++) state->position[a][i] = rng_uniform(&rng) * state->box.edge[a];
+    }
+}
+
+// Axes lie along z from the beginning.
+static Status place_upright(State *state, RngKey key) {
+    if (has_shape(&state->system, SHAPE_PLATELET)) {
+        place_anywhere(state, key);
+        return OK;
+    }
+    Layers layers;
+    uint32_t *site = NULL;
+    TRY(find_layers(&layers, &state->system));
+    TRY(draw_sites(&site, state->count, crystal_sites(&layers), key));
+    for (size_t i = 0; i < state->count; i++) {
+        double position[3];
+        crystal_site(&layers, site[i], position);
+        for (int a = 0; a < 3; a++) state->position[a][i] = position[a];
+    }
+    memory_free(site);
+    return OK;
+}
+
+// Where the balls round all bodies have room on the lattice, axes may point anywhere.
+static Status pack_bodies(State *state, RngKey key, const atomic_int *stop, PackingReport *report) {
+    if (state->system.start == START_CRYSTAL) return place_upright(state, key);
+    const Lattice lattice = lattice_best(&state->box, state->count);
+    const Body body = largest_body(&state->system);
+    TRY(place(state, key, &lattice));
+    report->lattice_scale = fmin(1, lattice.nearest * (1 - LATTICE_GAP) / shape_reach(&body));
+    return compress_bodies(state, key, report->lattice_scale, stop, report);
+}
+
+static Status pack(State *state, RngKey key, const atomic_int *stop, PackingReport *report) {
+    draw_diameters(state, key);
+    report->lattice_scale = 1;
+    TRY(state->oriented ? pack_bodies(state, key, stop, report)
+                        : pack_balls(state, key, stop, report));
     return settle(state);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Makes a valid State: sizes, species at random on a lattice of swollen-down particles, then growth
-// (Lubachevsky and Stillinger 1990) while the event-driven dynamics runs, to the wanted density.
+// to the wanted density: of discs and spheres while the event-driven dynamics runs (Lubachevsky and
+// Stillinger 1990), of bodies with an axis between cycles of Monte Carlo. Or a crystal.
 #pragma once
 
 #include "rng/rng.h"
@@ -10,7 +11,7 @@
 
 typedef struct PackingReport {
     double seconds;       // wall time it took
-    int64_t windows;      // of the growing dynamics
+    int64_t windows;      // of the growing dynamics, or cycles of Monte Carlo
     double lattice_scale; // of the diameters at the start
 } PackingReport;
 
@@ -19,5 +20,5 @@ typedef struct PackingReport {
 Status packing_create(State **out, const System *system, RngKey key, const atomic_int *stop,
                       PackingReport *report);
 
-// BAD_DATA with a sentence if this density cannot be reached by swelling.
+// BAD_DATA with a sentence if this density cannot be reached from the start asked for.
 Status packing_check(const System *system);

@@ -2,6 +2,7 @@
 // The health check on overlaps: every pair of hard bodies that share space, by linked cells. It
 // shares no code with the engines that it watches over. Soft spheres have an energy instead.
 #include "base/memory.h"
+#include "shapes/overlap.h"
 #include "state/state.h"
 
 #include <math.h>
@@ -12,9 +13,14 @@ typedef struct Cells {
     int64_t *next;  // [count]
 } Cells;
 
-static double reach_of(const State *state, size_t i) {
+static Body body_of(const State *state, size_t i) {
     Body body = species_body(&state->system.species[state->species_of[i]]);
     body.diameter = state->diameter[i];
+    return body;
+}
+
+static double reach_of(const State *state, size_t i) {
+    const Body body = body_of(state, i);
     return shape_reach(&body);
 }
 
@@ -56,6 +62,53 @@ static Status fill_cells(Cells *cells, const State *state) {
     return OK;
 }
 
+static double length_of(const double r[3]) {
+    return sqrt(vector_dot(r, r));
+}
+
+// Infinitely thin discs have no depth. Instead: how much of the chords that they cut from their
+// common line the two share, over the mean diameter; of coplanar ones, which cut none, the depth of
+// discs in a plane.
+static double platelet_depth(const Body *a, const double u[3], const Body *b, const double v[3],
+                             const double r[3]) {
+    const double ra = a->diameter / 2, rb = b->diameter / 2;
+    if (!platelet_overlap(ra, u, rb, v, r)) return 0;
+    double w[3];
+    vector_cross(u, v, w);
+    const double sine2 = vector_dot(w, w), ru = vector_dot(r, u), rv = vector_dot(r, v);
+    if (sine2 == 0) return 1 - length_of(r) / (ra + rb);
+    const double half_a = sqrt(ra * ra - rv * rv / sine2);
+    const double half_b = sqrt(rb * rb - ru * ru / sine2);
+    const double apart = fabs(vector_dot(r, w)) / sqrt(sine2);
+    const double shared = fmin(half_a + half_b - apart, 2 * fmin(half_a, half_b));
+    return shared / (ra + rb);
+}
+
+// 1 - distance/contact, the distance being that of the segments inside two rods, of the disc of a
+// platelet and the centre of a sphere, of the centres of two balls.
+static double body_depth(const Body *a, const double u[3], const Body *b, const double v[3],
+                         const double r[3]) {
+    const bool a_is_flat = a->shape == SHAPE_PLATELET, b_is_flat = b->shape == SHAPE_PLATELET;
+    if (a_is_flat && b_is_flat) return platelet_depth(a, u, b, v, r);
+    if (a_is_flat) return 1 - 2 * sqrt(platelet_distance2(r, u, a->diameter / 2)) / b->diameter;
+    if (b_is_flat) return 1 - 2 * sqrt(platelet_distance2(r, v, b->diameter / 2)) / a->diameter;
+    const double distance2 = spherocylinder_distance2(r, u, a->length / 2, v, b->length / 2);
+    return 1 - 2 * sqrt(distance2) / (a->diameter + b->diameter);
+}
+
+static void axis_of(const State *state, size_t i, double axis[3]) {
+    for (int a = 0; a < 3; a++) axis[a] = state->orientation[a][i];
+}
+
+// r leads from i to j.
+static double oriented_depth(const State *state, size_t i, size_t j, const double r[3]) {
+    const Body a = body_of(state, i), b = body_of(state, j);
+    double u[3], v[3];
+    axis_of(state, i, u);
+    axis_of(state, j, v);
+    return body_depth(&a, u, &b, v, r);
+}
+
 static bool is_hard(const State *state, size_t i) {
     return shape_is_hard((ShapeKind)state->system.species[state->species_of[i]].shape);
 }
@@ -64,11 +117,11 @@ static double overlap_depth(const State *state, size_t i, size_t j) {
     if (!is_hard(state, i) || !is_hard(state, j)) return 0;
     double r[3] = {0, 0, 0};
     for (int a = 0; a < state->box.dimension; a++) {
-        r[a] = state->position[a][i] - state->position[a][j];
+        r[a] = state->position[a][j] - state->position[a][i];
     }
     box_nearest_image(&state->box, r);
-    const double contact = (state->diameter[i] + state->diameter[j]) / 2;
-    return 1 - sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) / contact;
+    if (state->oriented) return oriented_depth(state, i, j, r);
+    return 1 - length_of(r) / ((state->diameter[i] + state->diameter[j]) / 2);
 }
 
 // Steps -1, 0, 1 along an axis, or only 0 where there is one cell.

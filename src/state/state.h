@@ -42,6 +42,7 @@ Status state_validate(const State *state);
 
 double state_orientation_drift(const State *state); // the largest | |u| - 1 |; 0 without axes
 
-// The deepest overlap, as 1 - r/d_ij over all pairs; 0 if none. Linked cells, O(count); the
+// The deepest overlap, as 1 - distance/contact over all pairs of hard bodies (of two platelets: the
+// length of chord that they share over the mean diameter); 0 if none. Linked cells, O(count); the
 // health check at output. `pairs`, if not NULL, is the number of pairs deeper than `depth`.
 Status state_deepest_overlap(const State *state, double depth, double *deepest, uint64_t *pairs);

@@ -186,6 +186,126 @@ START_TEST(packing_stops_when_asked) {
 }
 END_TEST
 
+static const Species ROD = {.shape = SHAPE_SPHEROCYLINDER, .diameter = 1, .length = 3};
+static const Species BALL = {.shape = SHAPE_SPHERE, .diameter = 1.5};
+static const Species PLATELET = {.shape = SHAPE_PLATELET, .diameter = 1};
+static const Species SOFT = {.shape = SHAPE_SOFT_SPHERE, .diameter = 1, .exponent = 36};
+
+// Equal numbers of one or two species, in three dimensions.
+static System bodies(int64_t particles, Species one, const Species *other) {
+    System system = {.dimension = 3, .particles = particles, .species_count = other ? 2 : 1};
+    system.species[0] = one;
+    if (other) system.species[1] = *other;
+    for (size_t s = 0; s < system.species_count; s++) {
+        system.species[s].mass = 1;
+        system.species[s].fraction = 1 / (double)system.species_count;
+    }
+    return system;
+}
+
+static double order_along(const State *state, int axis) {
+    double sum = 0;
+    for (size_t i = 0; i < state->count; i++) {
+        const double u = state->orientation[axis][i];
+        sum += (3 * u * u - 1) / 2 / (double)state->count;
+    }
+    return sum;
+}
+
+// Isotropic: <P2> along a given axis is 0 within 1/sqrt(5 N) of independent bodies; correlations
+// below the transition widen it.
+START_TEST(rods_are_compressed_in_disorder) {
+    System system = bodies(200, ROD, NULL);
+    system.packing_fraction = 0.2;
+    PackingReport report;
+    State *state = packed(&system, KEY, &report);
+    check_valid(state);
+    ck_assert_double_lt(report.lattice_scale, 0.7);
+    for (int a = 0; a < 3; a++) ck_assert_double_lt(fabs(order_along(state, a)), 5 * 0.0316 * 1.5);
+    state_free(state);
+}
+END_TEST
+
+START_TEST(platelets_and_mixtures_with_spheres_are_compressed) {
+    System systems[] = {bodies(200, PLATELET, NULL), bodies(150, ROD, &BALL),
+                        bodies(100, PLATELET, &BALL)};
+    systems[0].number_density = 3;
+    systems[1].packing_fraction = 0.3;
+    systems[2].number_density = 0.15;
+    State *state = packed(&systems[_i], KEY, NULL);
+    State *same = packed(&systems[_i], KEY, NULL);
+    check_valid(state);
+    for (int a = 0; a < 3; a++) {
+        const size_t bytes = state->count * sizeof(double);
+        ck_assert_mem_eq(state->position[a], same->position[a], bytes);
+        ck_assert_mem_eq(state->orientation[a], same->orientation[a], bytes);
+        for (size_t i = 0; i < state->count; i++) ck_assert_int_eq(state->image[a][i], 0);
+    }
+    state_free(state);
+    state_free(same);
+}
+END_TEST
+
+START_TEST(crystals_stand_upright_and_do_not_overlap) {
+    System systems[] = {bodies(400, ROD, NULL),       bodies(400, ROD, NULL),
+                        bodies(1000, PLATELET, NULL), bodies(200, ROD, &BALL),
+                        bodies(500, SOFT, NULL),      bodies(256, BALL, NULL)};
+    const double packing_fractions[] = {0.2, 0.6, 0, 0.15, 0.7, 0.7};
+    systems[_i].packing_fraction = packing_fractions[_i];
+    if (_i == 2) systems[_i].number_density = 100;
+    systems[_i].start = START_CRYSTAL;
+    State *state = packed(&systems[_i], KEY, NULL);
+    check_valid(state);
+    for (size_t i = 0; state->oriented && i < state->count; i++) {
+        ck_assert_double_eq(state->orientation[2][i], 1);
+    }
+    state_free(state);
+}
+END_TEST
+
+// As hard spheres of 0.5 they do not come nearer than cbrt(0.5/0.7).
+START_TEST(soft_spheres_begin_apart) {
+    System system = bodies(500, SOFT, NULL);
+    system.packing_fraction = 0.7;
+    State *state = packed(&system, KEY, NULL);
+    check_valid(state);
+    double nearest2 = INFINITY;
+    for (size_t i = 0; i < state->count; i++) {
+        ck_assert_double_eq(state->diameter[i], 1);
+        for (size_t j = 0; j < i; j++) {
+            double r[3], r2 = 0;
+            for (int a = 0; a < 3; a++) r[a] = state->position[a][i] - state->position[a][j];
+            box_nearest_image(&state->box, r);
+            for (int a = 0; a < 3; a++) r2 += r[a] * r[a];
+            nearest2 = fmin(nearest2, r2);
+        }
+    }
+    ck_assert_double_ge(sqrt(nearest2), cbrt(0.5 / 0.7));
+    state_free(state);
+}
+END_TEST
+
+START_TEST(bodies_that_cannot_be_packed_are_refused_in_a_sentence) {
+    System system = bodies(400, ROD, NULL);
+    system.packing_fraction = 0.6;
+    ck_assert_int_eq(packing_check(&system), BAD_DATA);
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "crystal"));
+    system.packing_fraction = 0.9;
+    system.start = START_CRYSTAL;
+    ck_assert_int_eq(packing_check(&system), BAD_DATA);
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "layers"));
+    system = bodies(1000, PLATELET, NULL);
+    system.number_density = 20;
+    ck_assert_int_eq(packing_check(&system), BAD_DATA);
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "platelets"));
+    const atomic_int stop = 1;
+    State *state = NULL;
+    system.number_density = 1;
+    ck_assert_int_eq(packing_create(&state, &system, KEY, &stop, NULL), INTERRUPTED);
+    ck_assert_ptr_null(state);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("packing");
     TCase *packing = tcase_create("packing");
@@ -199,6 +319,11 @@ int main(void) {
     tcase_add_test(packing, impossible_densities_are_refused);
     tcase_add_test(packing, growth_that_jams_is_repeated_more_slowly);
     tcase_add_test(packing, packing_stops_when_asked);
+    tcase_add_test(packing, rods_are_compressed_in_disorder);
+    tcase_add_loop_test(packing, platelets_and_mixtures_with_spheres_are_compressed, 0, 3);
+    tcase_add_loop_test(packing, crystals_stand_upright_and_do_not_overlap, 0, 6);
+    tcase_add_test(packing, soft_spheres_begin_apart);
+    tcase_add_test(packing, bodies_that_cannot_be_packed_are_refused_in_a_sentence);
     suite_add_tcase(suite, packing);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
