@@ -201,10 +201,11 @@ static Status more_events(Engine *engine) {
     return OK;
 }
 
-// Goes back, mends what failed, and lets the loop do it again. A rebuilt list alone might fail at
-// the same place: until well past it the list is rebuilt in every window.
+// Goes back, mends what failed, and lets the loop do it again with a new list. Where that fails at
+// the same place, the list is rebuilt in every window until well past it.
 static Status replay(Engine *engine, bool list_failed) {
-    const bool fresh = engine->snapshot.windows == 1 && engine->list.age == 1;
+    const bool made_at_snapshot = engine->list.age == engine->snapshot.windows;
+    const bool fresh = made_at_snapshot && engine->list.age == 1;
     snapshot_restore(engine);
     engine->hung = 0; // with collisions missed, anything may happen
     if (engine->outgrown) TRY(more_events(engine));
@@ -215,7 +216,7 @@ static Status replay(Engine *engine, bool list_failed) {
                            (long long)engine->state->step, engine->settings.window,
                            list_reach(engine));
     }
-    engine->careful = list_failed ? 2 * SNAPSHOT_WINDOWS : 0;
+    engine->careful = list_failed && made_at_snapshot ? 2 * SNAPSHOT_WINDOWS : 0;
     return renew_list(engine);
 }
 
@@ -324,7 +325,7 @@ size_t engine_memory(const System *system) {
     static const double pairs[2] = {3.5, 6.5}, neighbours[2] = {8, 16};
     const int three = system->dimension == 3;
     const double rows = (three ? ROW_3D : ROW_2D) * 2 * sizeof(double);
-    const double arrays = (ANCHOR + 4 + (double)system->dimension) * sizeof(double) +
+    const double arrays = (2 * ANCHOR + 4 + (double)system->dimension) * sizeof(double) +
                           (7 + (double)system->dimension) * sizeof(uint32_t) + sizeof(Event);
     const double lists = pairs[three] * (5 * sizeof(uint32_t) + 2 * sizeof(double)) +
                          neighbours[three] * (sizeof(uint32_t) + sizeof(double));

@@ -32,10 +32,11 @@ typedef struct Event {
 typedef struct NeighbourList {
     double skin, inner_skin;   // in d; inner_skin = skin: not pruned
     double scale, inner_scale; // of the diameters when it was made, when it was pruned
-    double spent;              // displacement possible between making and pruning, in d
+    double spent;              // largest displacement between making and pruning, in d
     double farthest2;          // square of the largest distance from an anchor since it was pruned
     int64_t age;               // windows since it was made
-    double *anchor;            // [slots][ANCHOR]: where each was when it was pruned
+    double *anchor;            // [slots][ANCHOR]: where each was when it was pruned,
+    double *origin;            // [slots][ANCHOR]: and when it was made
 
     size_t pairs; // padded to whole blocks with a pair that never meets
     size_t pair_capacity;

@@ -101,6 +101,23 @@ static void place_anchors(Engine *engine) {
     engine->list.farthest2 = 0;
 }
 
+// As the crow flies from where each particle was when the list was made.
+static double largest_displacement(const Engine *engine) {
+    double farthest2 = 0;
+    for (size_t slot = 0; slot < engine->count; slot++) {
+        const double *row = engine->rows + engine->row * slot;
+        const double *origin = engine->list.origin + ANCHOR * slot;
+        double d2 = 0;
+        for (int a = 0; a < engine->dimension; a++) {
+            const double edge = engine->edge[a], x = fabs(row[a] - origin[a]);
+            const double d = x > edge / 2 ? edge - x : x; // folded since
+            d2 += d * d;
+        }
+        farthest2 = fmax(farthest2, d2);
+    }
+    return sqrt(farthest2);
+}
+
 static void fill_columns(Engine *engine) {
     for (size_t slot = 0; slot < engine->count; slot++) {
         const double *row = engine->rows + engine->row * slot;
@@ -273,7 +290,7 @@ static double skin_of(const Engine *engine) {
 
 void list_prune(Engine *engine) {
     NeighbourList *list = &engine->list;
-    list->spent += sqrt(list->farthest2);
+    list->spent = largest_displacement(engine);
     list->inner_scale = engine->scale;
     place_anchors(engine);
     engine->kernel->prune(engine);
@@ -311,6 +328,7 @@ Status list_build(Engine *engine) {
     sort_by_cell(engine, &grid);
     place_nobody(engine);
     place_anchors(engine);
+    memcpy(list->origin, list->anchor, ANCHOR * engine->count * sizeof(double));
     fill_columns(engine);
     engine->tally.rebuilds++;
     TRY(list_pairs(engine, &grid));
@@ -340,6 +358,7 @@ Status list_create(Engine *engine) {
     NeighbourList *list = &engine->list;
     engine->cells_most = 2 * engine->count + 27;
     TRY(NEW_ARRAY(list->anchor, ANCHOR * (engine->count + 1)));
+    TRY(NEW_ARRAY(list->origin, ANCHOR * (engine->count + 1)));
     TRY(NEW_ARRAY(list->start, engine->count + 1));
     TRY(NEW_ARRAY(engine->cell_of, engine->count + 1));
     TRY(NEW_ARRAY(engine->cell_start, engine->cells_most + 1));
@@ -349,6 +368,7 @@ Status list_create(Engine *engine) {
 void list_free(Engine *engine) {
     NeighbourList *list = &engine->list;
     memory_free(list->anchor);
+    memory_free(list->origin);
     memory_free(list->first);
     memory_free(list->second);
     memory_free(list->pair_contact2);
