@@ -48,10 +48,10 @@ static Status check(const System *system) {
 static const double UNITS = 0x1p32; // of places, in an edge
 
 static Status allocate(Bodies *bodies, size_t count) {
-    TRY(NEW_ARRAY(bodies->axis, count));
+    TRY(NEW_ARRAY(bodies->pose, count));
     TRY(NEW_ARRAY(bodies->body, count));
-    for (int a = 0; a < 3; a++) TRY(NEW_ARRAY(bodies->place[a], count));
-    return OK;
+    TRY(NEW_ARRAY(bodies->row, count));
+    return NEW(bodies->draws);
 }
 
 static void load(Bodies *bodies) {
@@ -60,35 +60,80 @@ static void load(Bodies *bodies) {
         bodies->unit[a] = state->box.edge[a] / UNITS;
         bodies->units_per_d[a] = UNITS / state->box.edge[a];
         for (size_t i = 0; i < bodies->count; i++) {
-            bodies->place[a][i] = ((int64_t)state->image[a][i] << 32) +
-                                  bodies_whole(state->position[a][i] / bodies->unit[a]);
-            bodies->axis[i][a] = state->orientation[a][i];
+            bodies->pose[i].place[a] = ((int64_t)state->image[a][i] << 32) +
+                                       bodies_whole(state->position[a][i] / bodies->unit[a]);
+            bodies->pose[i].axis[a] = state->orientation[a][i];
         }
     }
+}
+
+static BodyRow row_of(const Bodies *bodies, size_t i) {
+    const Pose *pose = &bodies->pose[i];
+    const Body *body = &bodies->body[i];
+    BodyRow row = {.radius = (float)(body->diameter / 2), .core = (float)(body->length / 2)};
+    if (bodies->flat) row.core = body->shape == SHAPE_PLATELET;
+    for (int a = 0; a < 3; a++) {
+        row.place[a] = (int32_t)(uint32_t)pose->place[a];
+        row.axis[a] = (float)pose->axis[a];
+    }
+    return row;
 }
 
 static void set_sizes(Bodies *bodies, double scale) {
     const State *state = bodies->state;
     bodies->scale = scale;
+    bodies->longest = 0;
     for (size_t i = 0; i < bodies->count; i++) {
         Body body = species_body(&state->system.species[state->species_of[i]]);
         body.diameter = scale * state->diameter[i];
         body.length *= scale;
         bodies->body[i] = body;
+        bodies->row[i] = row_of(bodies, i);
+        bodies->longest = fmax(bodies->longest, shape_reach(&body));
     }
 }
 
-static double longest(const Bodies *bodies) {
-    double reach = 0;
-    for (size_t i = 0; i < bodies->count; i++) reach = fmax(reach, shape_reach(&bodies->body[i]));
-    return reach;
+// Are all bodies of one size, and have an axis?
+static bool are_alike(const Bodies *bodies) {
+    const Body *first = &bodies->body[0];
+    for (size_t i = 0; i < bodies->count; i++) {
+        const Body *body = &bodies->body[i];
+        if (body->shape != first->shape || body->diameter != first->diameter ||
+            body->length != first->length) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool has_platelets(const System *system) {
+    for (size_t s = 0; s < system->species_count; s++) {
+        if (system->species[s].shape == SHAPE_PLATELET) return true;
+    }
+    return false;
+}
+
+static const BodiesKernel *choose_kernel(const Bodies *bodies) {
+    const int mixed = !are_alike(bodies);
+    switch (cpu_path()) {
+#if defined(__x86_64__)
+    case CPU_AVX512:
+        return &bodies_kernels_avx512[bodies->flat][mixed];
+    case CPU_AVX2:
+        return &bodies_kernels_avx2[bodies->flat][mixed];
+#endif
+    default:
+        return &bodies_kernels_portable[bodies->flat][mixed];
+    }
 }
 
 static void discard(Chain *chain) {
     Bodies *bodies = (Bodies *)chain;
-    for (int a = 0; a < 3; a++) memory_free(bodies->place[a]);
-    memory_free(bodies->axis);
+    bodies_lists_free(bodies);
+    memory_free(bodies->pose);
     memory_free(bodies->body);
+    memory_free(bodies->row);
+    memory_free(bodies->draws);
     memory_free(bodies);
 }
 
@@ -96,7 +141,9 @@ static Status prepare(Bodies *bodies, State *state) {
     TRY(allocate(bodies, state->count));
     load(bodies);
     set_sizes(bodies, 1);
-    return check_reach(&state->box, longest(bodies));
+    TRY(check_reach(&state->box, bodies->longest));
+    bodies->kernel = choose_kernel(bodies);
+    return bodies_lists_create(bodies);
 }
 
 static Status create(Chain **out, const ChainSettings *settings, State *state, RngKey key) {
@@ -108,6 +155,8 @@ static Status create(Chain **out, const ChainSettings *settings, State *state, R
     bodies->key = key;
     bodies->state = state;
     bodies->count = state->count;
+    bodies->flat = has_platelets(&state->system);
+    bodies->drawn = -1;
     const Status status = prepare(bodies, state);
     if (status != OK)
         discard(&bodies->chain);
@@ -121,10 +170,10 @@ static void publish(Chain *chain) {
     State *state = bodies->state;
     for (int a = 0; a < 3; a++) {
         for (size_t i = 0; i < bodies->count; i++) {
-            const int64_t place = bodies->place[a][i];
+            const int64_t place = bodies->pose[i].place[a];
             state->position[a][i] = (double)(uint32_t)place * bodies->unit[a];
             state->image[a][i] = (int32_t)(place >> 32);
-            state->orientation[a][i] = bodies->axis[i][a];
+            state->orientation[a][i] = bodies->pose[i].axis[a];
         }
     }
 }
@@ -135,96 +184,70 @@ static void set_amplitude(Chain *chain, size_t species, const Amplitude *amplitu
 
 // Moves
 
-// Pairs are looked at from the lower id, so that rounding cannot make a pair overlap that the
-// partner's trial found apart.
-static bool pair_overlaps(const Bodies *bodies, size_t i, size_t j, const int64_t place[3],
-                          const double axis[3]) {
-    const bool forward = i < j;
-    double r[3];
-    for (int a = 0; a < 3; a++) {
-        const int32_t apart = (int32_t)((uint32_t)bodies->place[a][j] - (uint32_t)place[a]);
-        r[a] = (forward ? 1 : -1) * (double)apart * bodies->unit[a];
-    }
-    const Body *body = bodies->body;
-    return forward ? overlap_of(&body[i], axis, &body[j], bodies->axis[j], r)
-                   : overlap_of(&body[j], bodies->axis[j], &body[i], axis, r);
-}
-
-static bool anything_overlaps(const Bodies *bodies, size_t i, const int64_t place[3],
-                              const double axis[3]) {
-    for (size_t j = 0; j < bodies->count; j++) {
-        if (j != i && pair_overlaps(bodies, i, j, place, axis)) return true;
-    }
-    return false;
-}
-
-static void try_move(Bodies *bodies, const Draws *draws, size_t k, Tally *tally) {
-    const size_t i = draws->body[k];
-    const size_t species = bodies->state->species_of[i];
-    const Amplitude *amplitude = &bodies->amplitude[species];
-    MoveTally *moves = &tally->moves[species];
-    double *u = bodies->axis[i];
-    Proposal proposal;
-    if (shape_is_oriented(bodies->body[i].shape))
-        bodies_propose_oriented(bodies, bodies_turn_is_mixed(&bodies->settings), amplitude, draws,
-                                k, u, &proposal);
-    else
-        bodies_propose_ball(bodies, amplitude, draws, k, u, &proposal);
-
-    int64_t place[3];
-    for (int a = 0; a < 3; a++) place[a] = bodies->place[a][i] + proposal.shift[a];
-    moves->trials++;
-    if (anything_overlaps(bodies, i, place, proposal.axis)) return;
-    bodies_count_accepted(moves, &proposal, u);
-    for (int a = 0; a < 3; a++) bodies->place[a][i] = place[a];
-    memcpy(u, proposal.axis, sizeof proposal.axis);
-}
-
-static void draw_block(const Bodies *bodies, uint64_t block, Draws *draws) {
+static void draw_block(Bodies *bodies, int64_t block) {
     uint32_t words[RNG_BLOCK], ids[2 * TRIALS];
-    double normals[3][2 * TRIALS];
-    rng_words(bodies->key, bodies->settings.stream, block, words);
+    double x[2 * TRIALS], y[2 * TRIALS], z[2 * TRIALS];
+    double *const normals[3] = {x, y, z};
+    if (bodies->drawn == block) return;
+    bodies->drawn = block;
+    rng_words(bodies->key, bodies->settings.stream, (uint64_t)block, words);
     if (bodies->settings.gaussian) {
         for (uint32_t i = 0; i < 2 * TRIALS; i++) ids[i] = i;
-        rng_normals(bodies->key, bodies->settings.stream, block, ids, 2 * TRIALS, 3,
-                    (double *const[]){normals[0], normals[1], normals[2]});
+        rng_normals(bodies->key, bodies->settings.stream, (uint64_t)block, ids, 2 * TRIALS, 3,
+                    normals);
     }
-    bodies_draw(draws, &bodies->settings, bodies->count, words, normals);
+    bodies->kernel->draw(bodies->draws, &bodies->settings, bodies->count, words, normals);
 }
 
 static Status run(Chain *chain, int64_t trials, Tally *tally) {
     Bodies *bodies = (Bodies *)chain;
     int64_t *step = &bodies->state->step;
     const int64_t end = *step + trials;
-    Draws draws;
     while (*step < end) {
-        draw_block(bodies, (uint64_t)*step / TRIALS, &draws);
-        do try_move(bodies, &draws, (size_t)(*step % TRIALS), tally);
-        while (++*step < end && *step % TRIALS != 0);
+        const int64_t block = *step / TRIALS, from = *step % TRIALS;
+        const int64_t to = end - block * TRIALS < TRIALS ? end - block * TRIALS : TRIALS;
+        draw_block(bodies, block);
+        *step += (int64_t)bodies->kernel->try_moves(bodies, bodies->draws, (size_t)from, (size_t)to,
+                                                    tally);
+        if (bodies->outgrown) TRY(bodies_lists_build(bodies, bodies->lists.scale));
     }
     return OK;
 }
 
+static const double AHEAD = 1.02; // what lists are made for, of the scale asked for
+
+static bool has_room(const Bodies *bodies) {
+    const double *edge = bodies->state->box.edge;
+    return 2 * bodies->longest < fmin(fmin(edge[0], edge[1]), edge[2]);
+}
+
+static bool any_overlaps(Bodies *bodies) {
+    for (size_t i = 0; i < bodies->count; i++) {
+        if (bodies->kernel->overlaps(bodies, i)) return true;
+    }
+    return false;
+}
+
+// Lists are made for bodies somewhat larger than asked for, so that slow growth needs new ones
+// rarely.
 static bool rescale(Chain *chain, double scale) {
     Bodies *bodies = (Bodies *)chain;
     const double before = bodies->scale;
     set_sizes(bodies, scale);
-    bool fits =
-        2 * longest(bodies) < fmin(fmin(bodies->state->box.edge[0], bodies->state->box.edge[1]),
-                                   bodies->state->box.edge[2]);
-    for (size_t i = 0; fits && i < bodies->count; i++) {
-        const int64_t place[3] = {bodies->place[0][i], bodies->place[1][i], bodies->place[2][i]};
-        for (size_t j = 0; fits && j < i; j++) {
-            fits = !pair_overlaps(bodies, i, j, place, bodies->axis[i]);
-        }
+    bool fits = has_room(bodies);
+    if (fits && (scale > bodies->lists.scale || scale < bodies->lists.scale / AHEAD / AHEAD)) {
+        fits = bodies_lists_build(bodies, AHEAD * scale) == OK;
     }
+    fits = fits && !any_overlaps(bodies);
     if (!fits) set_sizes(bodies, before);
     return fits;
 }
 
 static size_t memory(const System *system) {
-    return sizeof(Bodies) +
-           (size_t)system->particles * (sizeof(Body) + 3 * sizeof(int64_t) + 3 * sizeof(double));
+    enum { IDS = 64 }; // on lists and in cells
+    return sizeof(Bodies) + sizeof(Draws) +
+           (size_t)system->particles *
+               (sizeof(Body) + sizeof(Pose) + 2 * sizeof(BodyRow) + IDS * sizeof(uint32_t));
 }
 
 const ChainKind chain_of_bodies = {

@@ -10,10 +10,6 @@
 
 #include <math.h>
 
-#ifndef KERNEL
-#define KERNEL static inline __attribute__((always_inline))
-#endif
-
 enum {
     WORDS_PER_TRIAL = 8,
     TRIALS = RNG_BLOCK / WORDS_PER_TRIAL, // of a block
@@ -24,12 +20,12 @@ enum { WORD_BODY, WORD_PLACE, WORD_TURN = 4, WORD_AZIMUTH = 6, WORD_FRAME = 7 };
 // Of the trials of one block; amplitudes are multiplied in later. Displacements: along the axis and
 // across it, uniform in (-1, 1) or normal of the same variance, 1/3. Turns: w of ROTATION_MIXED, or
 // Y1, Y2 of ROTATION_TANGENT.
-typedef struct Draws {
+struct Draws {
     uint32_t body[TRIALS];
     uint32_t in_new_frame[TRIALS]; // 0 or 1
     double displacement[3][TRIALS];
     double turn[3][TRIALS];
-} Draws;
+};
 
 // Uniform in (-1, 1), never 0, symmetric.
 KERNEL double bodies_uniform(uint32_t word) {
@@ -72,7 +68,7 @@ KERNEL void bodies_draw_tangent(Draws *draws, const uint32_t *words, size_t k) {
     draws->turn[1][k] = x * sine + y * cosine;
 }
 
-KERNEL void bodies_draw_normal(Draws *draws, const double normals[3][2 * TRIALS]) {
+KERNEL void bodies_draw_normal(Draws *draws, double *const normals[3]) {
     static const double DEVIATION = 0.57735026918962576451; // 1/sqrt(3)
     for (size_t k = 0; k < TRIALS; k++) {
         for (int a = 0; a < 3; a++) draws->displacement[a][k] = DEVIATION * normals[a][2 * k];
@@ -82,7 +78,7 @@ KERNEL void bodies_draw_normal(Draws *draws, const double normals[3][2 * TRIALS]
 
 // From the words of a block, and its normal numbers if the settings are gaussian.
 KERNEL void bodies_draw(Draws *draws, const ChainSettings *settings, size_t count,
-                        const uint32_t words[RNG_BLOCK], const double normals[3][2 * TRIALS]) {
+                        const uint32_t words[RNG_BLOCK], double *const normals[3]) {
     for (size_t k = 0; k < TRIALS; k++) {
         draws->body[k] = (uint32_t)((uint64_t)words[WORD_BODY * TRIALS + k] * count >> 32);
         draws->in_new_frame[k] = words[WORD_FRAME * TRIALS + k] >> 31;

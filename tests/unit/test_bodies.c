@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The chain of bodies: no overlaps, the same bits whatever is stopped and resumed, proposals that
+// are what they say, sentences for what it cannot do.
+#include "bodies_scenes.h"
+#include "reference_bodies.h"
+
+#include "base/constants.h"
+#include "dmc/bodies_move.h"
+
+#include <check.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const RngKey KEY = {.seed = 5};
+
+static const ChainSettings MIXED = {.stream = STREAM_TRIALS, .rotation = ROTATION_MIXED};
+static const ChainSettings TANGENT = {.stream = STREAM_TRIALS, .rotation = ROTATION_TANGENT};
+static const ChainSettings NORMAL = {.stream = STREAM_TRIALS, .gaussian = 1};
+
+static Amplitude amplitude_of(double step) {
+    return (Amplitude){.parallel = step, .perpendicular = 1.2 * step, .rotation = step};
+}
+
+static Chain *chain_on(State *state, const ChainSettings *settings, double step) {
+    Chain *chain = NULL;
+    ck_assert_msg(chain_create(&chain, settings, state, KEY) == OK, "%s", status_sentence());
+    for (size_t s = 0; s < state->system.species_count; s++) {
+        const Amplitude amplitude = amplitude_of(step);
+        chain_set_amplitude(chain, s, &amplitude);
+    }
+    return chain;
+}
+
+static void run(Chain *chain, int64_t trials, Tally *tally) {
+    ck_assert_msg(chain_run(chain, trials, tally) == OK, "%s", status_sentence());
+}
+
+// Rods with spheres of another size, and platelets with spheres.
+static System mixture(ShapeKind shape, int64_t particles, double number_density) {
+    System system =
+        bodies_system(shape, shape == SHAPE_PLATELET ? 0 : 3, particles, number_density);
+    system.species_count = 3;
+    system.species[0].fraction = 0.5;
+    system.species[1] = system.species[0];
+    system.species[1].diameter = 0.6;
+    system.species[1].fraction = 0.3;
+    system.species[2] =
+        (Species){.shape = SHAPE_SPHERE, .diameter = 0.8, .mass = 1, .fraction = 0.2};
+    return system;
+}
+
+static void check_same(const State *a, const State *b) {
+    ck_assert_int_eq(a->step, b->step);
+    for (int c = 0; c < 3; c++) {
+        ck_assert_mem_eq(a->position[c], b->position[c], a->count * sizeof(double));
+        ck_assert_mem_eq(a->orientation[c], b->orientation[c], a->count * sizeof(double));
+        ck_assert_mem_eq(a->image[c], b->image[c], a->count * sizeof(int32_t));
+    }
+}
+
+static void check_no_overlap(const System *system, const ChainSettings *settings) {
+    State *state = bodies_state(system, KEY, 1);
+    ck_assert_uint_eq(bodies_overlaps(state, 1), 0);
+    Chain *chain = chain_on(state, settings, 0.1);
+    Tally tally = {0};
+    run(chain, 100000, &tally);
+    chain_publish(chain);
+    ck_assert_uint_eq(bodies_overlaps(state, 1), 0);
+    ck_assert_msg(state_validate(state) == OK, "%s", status_sentence());
+    uint64_t trials = 0;
+    for (size_t s = 0; s < system->species_count; s++) {
+        trials += tally.moves[s].trials;
+        ck_assert_uint_gt(tally.moves[s].accepted, 0);
+        ck_assert_uint_lt(tally.moves[s].accepted, tally.moves[s].trials);
+    }
+    ck_assert_uint_eq(trials, 100000);
+    chain_free(chain);
+    state_free(state);
+}
+
+START_TEST(nothing_ever_overlaps) {
+    const System rods = bodies_system(SHAPE_SPHEROCYLINDER, 5, 300, 0.025);
+    const System platelets = bodies_system(SHAPE_PLATELET, 0, 200, 1);
+    const System with_rods = mixture(SHAPE_SPHEROCYLINDER, 300, 0.06);
+    const System with_platelets = mixture(SHAPE_PLATELET, 200, 0.5);
+    check_no_overlap(&rods, &MIXED);
+    check_no_overlap(&platelets, &TANGENT);
+    check_no_overlap(&with_rods, &NORMAL);
+    check_no_overlap(&with_platelets, &MIXED);
+}
+END_TEST
+
+static void check_resumed(const System *system, const ChainSettings *settings) {
+    State *whole = bodies_state(system, KEY, 1), *parts = bodies_state(system, KEY, 1);
+    check_same(whole, parts);
+    Tally tally_whole = {0}, tally_parts = {0};
+    Chain *chain = chain_on(whole, settings, 0.1);
+    run(chain, 20000, &tally_whole);
+    chain_publish(chain);
+    chain_free(chain);
+
+    chain = chain_on(parts, settings, 0.1);
+    run(chain, 1, &tally_parts);
+    run(chain, 777, &tally_parts);
+    chain_publish(chain);
+    run(chain, 8000, &tally_parts);
+    chain_publish(chain);
+    chain_free(chain);
+    chain = chain_on(parts, settings, 0.1); // anew, from what was published
+    run(chain, 20000 - 8778, &tally_parts);
+    chain_publish(chain);
+    check_same(whole, parts);
+    ck_assert_mem_eq(tally_whole.moves, tally_parts.moves, sizeof tally_whole.moves);
+    chain_free(chain);
+    state_free(whole);
+    state_free(parts);
+}
+
+START_TEST(stopped_and_resumed_has_the_bits_of_never_stopped) {
+    const System rods = mixture(SHAPE_SPHEROCYLINDER, 200, 0.06);
+    const System platelets = bodies_system(SHAPE_PLATELET, 0, 100, 1);
+    check_resumed(&rods, &MIXED);
+    check_resumed(&rods, &NORMAL);
+    check_resumed(&platelets, &TANGENT);
+}
+END_TEST
+
+// On every instruction set, with steps from small to such that no list covers them.
+static void check_against_reference(const System *system, const ChainSettings *settings,
+                                    double step) {
+    enum { RUN = 30000 };
+    State *start = bodies_state(system, KEY, 1), *plain = bodies_state(system, KEY, 1);
+    ReferenceBodies *reference = NULL;
+    Tally expected = {0};
+    ck_assert_int_eq(reference_bodies_create(&reference, settings, plain, KEY), OK);
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Amplitude amplitude = amplitude_of(step);
+        reference_bodies_set_amplitude(reference, s, &amplitude);
+    }
+    reference_bodies_run(reference, RUN, &expected);
+    reference_bodies_free(reference);
+    const CpuPath best = cpu_path();
+    for (int path = 0; path <= (int)best; path++) {
+        setenv("PERRIN_CPU", cpu_path_name((CpuPath)path), 1);
+        State *state = bodies_state(system, KEY, 1);
+        check_same(start, state);
+        Tally tally = {0};
+        Chain *chain = chain_on(state, settings, step);
+        run(chain, RUN, &tally);
+        chain_publish(chain);
+        check_same(plain, state);
+        ck_assert_mem_eq(tally.moves, expected.moves, sizeof tally.moves);
+        chain_free(chain);
+        state_free(state);
+        unsetenv("PERRIN_CPU");
+    }
+    state_free(plain);
+    state_free(start);
+}
+
+START_TEST(lists_and_bounds_give_the_bits_of_the_plain_chain) {
+    const System systems[] = {
+        bodies_system(SHAPE_SPHEROCYLINDER, 5, 250, 0.025),
+        bodies_system(SHAPE_PLATELET, 0, 150, 1), mixture(SHAPE_SPHEROCYLINDER, 200, 0.06),
+        mixture(SHAPE_PLATELET, 150, 0.5),
+        bodies_system(SHAPE_SPHEROCYLINDER, 5, 24, 0.012)}; // no room for lists
+    static const double steps[] = {0.02, 0.15, 0.45};
+    for (size_t k = 0; k < sizeof systems / sizeof *systems; k++) {
+        check_against_reference(&systems[k], &MIXED, steps[k % 3]);
+        check_against_reference(&systems[k], &NORMAL, steps[(k + 1) % 3]);
+        check_against_reference(&systems[k], &TANGENT, steps[(k + 2) % 3]);
+    }
+}
+END_TEST
+
+// A free body: what is proposed is accepted, so the tally has the moments of the proposals.
+typedef struct Moments {
+    double trials, parallel, perpendicular, rotational;
+} Moments;
+
+static Moments free_moments(const ChainSettings *settings, const Amplitude *amplitude,
+                            int64_t trials) {
+    const System system = bodies_system(SHAPE_PLATELET, 0, 1, 0.01);
+    State *state = bodies_state(&system, KEY, 1);
+    Chain *chain = chain_on(state, settings, 0);
+    chain_set_amplitude(chain, 0, amplitude);
+    Tally tally = {0};
+    run(chain, trials, &tally);
+    ck_assert_uint_eq(tally.moves[0].accepted, (uint64_t)trials);
+    chain_free(chain);
+    state_free(state);
+    const double n = (double)trials;
+    return (Moments){.trials = n,
+                     .parallel = tally.moves[0].parallel / n,
+                     .perpendicular = tally.moves[0].perpendicular / n,
+                     .rotational = tally.moves[0].rotational / n};
+}
+
+// <x^2> = l^2/3, with variance (1/5 - 1/9) l^4 uniform and 2/9 l^4 normal; and <u'.u> = F(a) by
+// Jabbari-Farouji and Trizac, eq. 6: 0.995011427 at 0.109, 0.8518518519 at 0.4.
+START_TEST(a_free_body_moves_as_its_amplitudes_say) {
+    static const double alpha[2] = {0.109, 0.4}, remains[2] = {0.995011427, 0.8518518519};
+    const int64_t trials = 1000000;
+    for (int k = 0; k < 2; k++) {
+        const Amplitude amplitude = {.parallel = 0.3, .perpendicular = 0.2, .rotation = alpha[k]};
+        const Moments m = free_moments(&MIXED, &amplitude, trials);
+        const double sigma = sqrt((1.0 / 5 - 1.0 / 9) / m.trials);
+        ck_assert_double_eq_tol(m.parallel, 0.03, 4 * sigma * 0.09);
+        ck_assert_double_eq_tol(m.perpendicular, 0.08 / 3, 4 * sigma * sqrt(2) * 0.04);
+        const double mean = 1 - remains[k];
+        ck_assert_double_eq_tol(m.rotational, mean, 4 * mean / sqrt(m.trials)); // it varies less
+    }
+    const Amplitude amplitude = {.parallel = 0.3, .perpendicular = 0.2, .rotation = 0.05};
+    const Moments m = free_moments(&NORMAL, &amplitude, trials);
+    const double sigma = sqrt(2.0 / 9 / m.trials);
+    ck_assert_double_eq_tol(m.parallel, 0.03, 4 * sigma * 0.09);
+    ck_assert_double_eq_tol(m.perpendicular, 0.08 / 3, 4 * sigma * sqrt(2) * 0.04);
+}
+END_TEST
+
+START_TEST(what_cannot_be_done_is_said) {
+    System system = bodies_system(SHAPE_SPHEROCYLINDER, 5, 10, 0.1);
+    ck_assert_int_eq(chain_check(&system), BAD_DATA);
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "half of every edge"));
+    system = mixture(SHAPE_SPHEROCYLINDER, 500, 0.1);
+    ck_assert_int_eq(chain_check(&system), OK);
+    system.species[1].shape = SHAPE_PLATELET;
+    ck_assert_int_eq(chain_check(&system), BAD_DATA);
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "overlap"));
+}
+END_TEST
+
+int main(void) {
+    Suite *suite = suite_create("bodies");
+    TCase *cases = tcase_create("chain");
+    tcase_set_timeout(cases, 600);
+    tcase_add_test(cases, nothing_ever_overlaps);
+    tcase_add_test(cases, stopped_and_resumed_has_the_bits_of_never_stopped);
+    tcase_add_test(cases, lists_and_bounds_give_the_bits_of_the_plain_chain);
+    tcase_add_test(cases, a_free_body_moves_as_its_amplitudes_say);
+    tcase_add_test(cases, what_cannot_be_done_is_said);
+    suite_add_tcase(suite, cases);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed != 0;
+}
