@@ -4,18 +4,10 @@
 // Eight lanes, added up in one fixed order.
 #pragma once
 
+#include "numerics/turn.h"
 #include "observables/density_modes.h"
 
-typedef double Lanes __attribute__((vector_size(MODES_LANES * sizeof(double))));
-enum { LANE_ROWS = MODES_BLOCK / MODES_LANES };
-
-#define KERNEL static inline __attribute__((always_inline))
-
-// Eight numbers in a fixed order.
-KERNEL double lanes_sum(const Lanes *v) {
-    const Lanes x = *v;
-    return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
-}
+enum { LANE_ROWS = MODES_BLOCK / LANES };
 
 // Power n of an axis; a negative one is the complex conjugate of the positive.
 typedef struct Phase {
@@ -78,7 +70,25 @@ KERNEL void density_block_3d(const DensityModes *modes, double *real, double *im
     }
 }
 
+// Powers 0 to `most` of exp(2 pi i x/L), by recurrence; of an empty column all are zero.
+KERNEL void fill_table(const PowerTable *table) {
+    for (size_t lane = 0; lane < MODES_BLOCK; lane += LANES) {
+        Lanes *cosine = (Lanes *)(table->cosine + lane), *sine = (Lanes *)(table->sine + lane);
+        const Lanes present = *(const Lanes *)(table->present + lane);
+        Lanes turn_c, turn_s, c = present, s = 0 * present;
+        turn_cosine_sine((const Lanes *)(table->turns + lane), &turn_c, &turn_s);
+        for (int32_t n = 0; n <= table->most; n++) {
+            cosine[n * LANE_ROWS] = c;
+            sine[n * LANE_ROWS] = s;
+            const Lanes turned = c * turn_c - s * turn_s;
+            s = c * turn_s + s * turn_c;
+            c = turned;
+        }
+    }
+}
+
 KERNEL void density_block(const DensityModes *modes, double *real, double *imaginary) {
+    for (int a = 0; a < modes->dimension; a++) fill_table(&modes->table[a]);
     if (modes->dimension == 2)
         density_block_2d(modes, real, imaginary);
     else

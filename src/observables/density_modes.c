@@ -5,8 +5,8 @@
 
 #include "base/cpu.h"
 #include "base/memory.h"
-#include "numerics/turn.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 
 static size_t table_size(int32_t most) {
@@ -20,6 +20,8 @@ static Status allocate(DensityModes *modes) {
             const int32_t n = abs(modes->vectors[v].n[a]);
             if (n > table->most) table->most = n;
         }
+        TRY(NEW_ARRAY(table->turns, MODES_BLOCK));
+        TRY(NEW_ARRAY(table->present, MODES_BLOCK));
         TRY(NEW_ARRAY(table->cosine, table_size(table->most)));
         TRY(NEW_ARRAY(table->sine, table_size(table->most)));
     }
@@ -43,6 +45,8 @@ Status density_modes_create(DensityModes **out, int dimension, const LatticeVect
 void density_modes_free(DensityModes *modes) {
     if (!modes) return;
     for (int a = 0; a < 3; a++) {
+        memory_free(modes->table[a].turns);
+        memory_free(modes->table[a].present);
         memory_free(modes->table[a].cosine);
         memory_free(modes->table[a].sine);
     }
@@ -51,21 +55,9 @@ void density_modes_free(DensityModes *modes) {
 
 size_t density_modes_memory(const int32_t most[3], int dimension) {
     size_t bytes = sizeof(DensityModes);
-    for (int a = 0; a < dimension; a++) bytes += 2 * table_size(most[a]) * sizeof(double);
+    for (int a = 0; a < dimension; a++)
+        bytes += 2 * (MODES_BLOCK + table_size(most[a])) * sizeof(double);
     return bytes;
-}
-
-// Powers of particle `position` into column `lane`; an empty column (no position) is all zero.
-static void fill_column(PowerTable *table, size_t lane, const double *position, double edge) {
-    double cosine = 0, sine = 0, c = position ? 1 : 0, s = 0;
-    if (position) turn_cosine_sine(*position / edge, &cosine, &sine);
-    for (int32_t n = 0; n <= table->most; n++) {
-        table->cosine[(size_t)n * MODES_BLOCK + lane] = c;
-        table->sine[(size_t)n * MODES_BLOCK + lane] = s;
-        const double turned = c * cosine - s * sine;
-        s = c * sine + s * cosine;
-        c = turned;
-    }
 }
 
 static void add_block(const DensityModes *modes, double *real, double *imaginary) {
@@ -77,10 +69,12 @@ static void add_block(const DensityModes *modes, double *real, double *imaginary
 void density_modes_add(DensityModes *modes, const Box *box, double *const position[3], size_t begin,
                        size_t end, double *real, double *imaginary) {
     for (size_t block = begin; block < end; block += MODES_BLOCK) {
-        for (size_t lane = 0; lane < MODES_BLOCK; lane++) {
-            const size_t i = block + lane;
-            for (int a = 0; a < modes->dimension; a++) {
-                fill_column(&modes->table[a], lane, i < end ? &position[a][i] : NULL, box->edge[a]);
+        for (int a = 0; a < modes->dimension; a++) {
+            const PowerTable *table = &modes->table[a];
+            for (size_t lane = 0; lane < MODES_BLOCK; lane++) {
+                const bool present = block + lane < end;
+                table->present[lane] = present;
+                table->turns[lane] = present ? position[a][block + lane] / box->edge[a] : 0;
             }
         }
         add_block(modes, real, imaginary);

@@ -15,11 +15,12 @@ typedef struct LatticeVector {
 } LatticeVector;
 
 // Particles at a time: their powers of exp(2 pi i x/L) lie in `table` while all vectors are run.
-enum { MODES_BLOCK = 64, MODES_LANES = 8 };
+enum { MODES_BLOCK = 64 };
 
 // Powers 0..most of exp(2 pi i x/L) of one axis: cosine[n][MODES_BLOCK], then sine[n][MODES_BLOCK].
 typedef struct PowerTable {
     int32_t most;
+    double *turns, *present; // [MODES_BLOCK]: x/L, and 1 where there is a particle, else 0
     double *cosine, *sine;
 } PowerTable;
 

@@ -10,24 +10,41 @@
 
 START_TEST(turns_are_cosines_and_sines_to_the_last_digits) {
     for (int k = -4000; k <= 4000; k++) {
-        const double fraction = k / 1777.0;
-        double c, s;
-        turn_cosine_sine(fraction, &c, &s);
-        const long double angle = 2 * 3.14159265358979323846264338L * (long double)fraction;
-        ck_assert_double_eq_tol(c, (double)cosl(angle), 3e-16);
-        ck_assert_double_eq_tol(s, (double)sinl(angle), 3e-16);
+        Lanes fraction, c, s, versine;
+        for (int lane = 0; lane < LANES; lane++) fraction[lane] = (k + lane / 8.0) / 1777.0;
+        turn_cosine_sine(&fraction, &c, &s);
+        turn_versine(&fraction, &versine);
+        for (int lane = 0; lane < LANES; lane++) {
+            const long double angle =
+                2 * 3.14159265358979323846264338L * (long double)fraction[lane];
+            ck_assert_double_eq_tol(c[lane], (double)cosl(angle), 3e-16);
+            ck_assert_double_eq_tol(s[lane], (double)sinl(angle), 3e-16);
+            ck_assert_double_eq_tol(versine[lane], 1 - (double)cosl(angle), 1.2e-15);
+        }
     }
 }
 END_TEST
 
+START_TEST(a_small_turn_loses_its_square_to_full_precision) {
+    const Lanes fraction = {1e-9, -1e-6, 1e-3};
+    Lanes versine;
+    turn_versine(&fraction, &versine);
+    for (int lane = 0; lane < 3; lane++) {
+        const double half = sin(3.14159265358979323846 * fraction[lane]);
+        ck_assert_double_eq_tol(versine[lane] / (2 * half * half), 1, 1e-15);
+    }
+    ck_assert_double_eq(versine[3], 0);
+}
+END_TEST
+
 START_TEST(quarter_turns_are_exact) {
-    double c, s;
-    turn_cosine_sine(0.75, &c, &s);
-    ck_assert_double_eq(c, 0);
-    ck_assert_double_eq(s, -1);
-    turn_cosine_sine(-0.5, &c, &s);
-    ck_assert_double_eq(c, -1);
-    ck_assert_double_eq(s, 0);
+    const Lanes fraction = {0.75, -0.5};
+    Lanes c, s;
+    turn_cosine_sine(&fraction, &c, &s);
+    ck_assert_double_eq(c[0], 0);
+    ck_assert_double_eq(s[0], -1);
+    ck_assert_double_eq(c[1], -1);
+    ck_assert_double_eq(s[1], 0);
 }
 END_TEST
 
@@ -122,6 +139,7 @@ int main(void) {
     Suite *suite = suite_create("numerics");
     TCase *c = tcase_create("numerics");
     tcase_add_test(c, turns_are_cosines_and_sines_to_the_last_digits);
+    tcase_add_test(c, a_small_turn_loses_its_square_to_full_precision);
     tcase_add_test(c, quarter_turns_are_exact);
     tcase_add_test(c, pade_of_a_rational_function_is_itself);
     tcase_add_test(c, pade_sums_a_slow_series);
