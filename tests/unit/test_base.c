@@ -118,10 +118,9 @@ START_TEST(second_virial_coefficients_are_half_the_excluded_volume) {
     ck_assert_double_eq_tol(second_virial(SHAPE_DISC, 1, 1), M_PI / 2, 1e-15);
     ck_assert_double_eq_tol(second_virial(SHAPE_SPHERE, 1, 1), 2 * M_PI / 3, 1e-15);
     // [analytic] binary discs 1.4, equal numbers: 2.2933627
-    const double mixed =
-        (second_virial(SHAPE_DISC, 1, 1) + 2 * second_virial(SHAPE_DISC, 1, 1.4) +
-         second_virial(SHAPE_DISC, 1.4, 1.4)) /
-        4;
+    const double mixed = (second_virial(SHAPE_DISC, 1, 1) + 2 * second_virial(SHAPE_DISC, 1, 1.4) +
+                          second_virial(SHAPE_DISC, 1.4, 1.4)) /
+                         4;
     ck_assert_double_eq_tol(mixed, 2.2933627, 1e-7);
 }
 END_TEST
