@@ -15,10 +15,9 @@ static inline void set_number(Settings *settings, const OptionTable *options, co
     for (size_t i = 0; i < options->count; i++) {
         const Option *row = &options->rows[i];
         if (strcmp(row->name, name) != 0) continue;
-        if (row->type == OPTION_REAL)
-            *(double *)(settings->bytes + row->offset) = value;
-        else
-            *(int64_t *)(settings->bytes + row->offset) = (int64_t)value;
+        const int64_t whole = (int64_t)value;
+        const void *bytes = row->type == OPTION_REAL ? (const void *)&value : &whole;
+        memcpy(settings->bytes + row->offset, bytes, sizeof value);
         return;
     }
     ck_abort_msg("no option '%s'", name);
