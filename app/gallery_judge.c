@@ -9,6 +9,7 @@
 #include "measure.h"
 
 #include "base/memory.h"
+#include "base/number.h"
 #include "store/store.h"
 
 #include <math.h>
@@ -158,11 +159,25 @@ typedef struct Expectation {
     double expected, uncertainty, tolerance, precision;
 } Expectation;
 
-static Status read_expectation(const Csv *csv, size_t row, Expectation *out) {
+// What is expected may be another subject of the entry, that measures the same in another way: its
+// error is then the uncertainty.
+static Status read_expected(const Judgement *judgement, size_t row, Expectation *out) {
+    const Csv *csv = judgement->expected;
+    const char *expected = csv_cell(csv, row, "expected");
+    Measured other = {.point = ""};
+    if (number_read(expected, &out->expected))
+        return csv_number(csv, row, "uncertainty", 0, &out->uncertainty);
+    TRY(find_measured(judgement, expected, out->measure, &other));
+    out->expected = other.estimate.value;
+    out->uncertainty = isnan(other.estimate.error) ? 0 : other.estimate.error;
+    return OK;
+}
+
+static Status read_expectation(const Judgement *judgement, size_t row, Expectation *out) {
+    const Csv *csv = judgement->expected;
     *out = (Expectation){.subject = csv_cell(csv, row, "subject"),
                          .measure = csv_cell(csv, row, "measure")};
-    TRY(csv_number(csv, row, "expected", (double)NAN, &out->expected));
-    TRY(csv_number(csv, row, "uncertainty", 0, &out->uncertainty));
+    TRY(read_expected(judgement, row, out));
     TRY(csv_number(csv, row, "tolerance", 0, &out->tolerance));
     return csv_number(csv, row, "precision", (double)INFINITY, &out->precision);
 }
@@ -179,7 +194,7 @@ static Status judge_row(const Judgement *judgement, size_t row, FILE *table, FIL
     const Csv *csv = judgement->expected;
     Expectation want;
     Measured at = {.point = ""};
-    TRY(read_expectation(csv, row, &want));
+    TRY(read_expectation(judgement, row, &want));
     TRY(find_measured(judgement, want.subject, want.measure, &at));
     const double value = at.estimate.value;
     const double error = isnan(at.estimate.error) ? 0 : at.estimate.error; // a single replica
