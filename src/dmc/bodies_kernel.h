@@ -345,8 +345,21 @@ KERNEL bool overlaps_anything(const Bodies *bodies, size_t i, const Pose *pose) 
     return false;
 }
 
-// Anchors a body anew before a trial that would leave what its list covers; for a step that no
-// list covers all are looked at.
+// No core strays from its anchor by more than the skin.
+KERNEL bool overlaps_in_cells(Bodies *bodies, size_t i, const Pose *pose, const Tried *tried) {
+    const BodyLists *lists = &bodies->lists;
+    const double swell = lists->scale / bodies->scale;
+    const float reach = (float)(swell * bodies->longest + lists->skin) * 1.00001f;
+    const size_t found = search_cells(bodies, tried, reach * reach * 1.00001f);
+    for (size_t k = 0; k < found; k++) {
+        const uint32_t j = lists->candidate[k];
+        if (j != i && bodies_pair_overlaps(bodies, i, pose, j)) return true;
+    }
+    return false;
+}
+
+// Anchors a body anew before a trial that would leave what its list covers; a step that no list
+// covers is judged by the cells around its end.
 KERNEL bool trial_overlaps(const int flat, const int mixed, Bodies *bodies, size_t i,
                            const Pose *pose, const Tried *tried, float *way) {
     const BodyLists *lists = &bodies->lists;
@@ -355,7 +368,8 @@ KERNEL bool trial_overlaps(const int flat, const int mixed, Bodies *bodies, size
     if (*way <= leash) return overlaps_on_list(flat, mixed, bodies, i, pose, tried);
     anchor(flat, bodies, i);
     *way = strayed(flat, tried, &lists->anchor[i]);
-    if (bodies->outgrown || *way > leash) return overlaps_anything(bodies, i, pose);
+    if (bodies->outgrown) return overlaps_anything(bodies, i, pose);
+    if (*way > leash) return overlaps_in_cells(bodies, i, pose, tried);
     return overlaps_on_list(flat, mixed, bodies, i, pose, tried);
 }
 
