@@ -18,8 +18,10 @@ static void print_system(const System *system) {
     const int dimension = (int)system->dimension;
     const Box box = system_box(system);
     printf("system    %lld particles in %d dimensions\n", (long long)system->particles, dimension);
-    printf("          packing fraction %.6g, number density %.6g d^-%d\n",
-           system_packing_fraction(system), system_number_density(system), dimension);
+    const double packing = system_packing_fraction(system); // 0 of platelets, without volume
+    printf("          ");
+    if (packing > 0) printf("packing fraction %.6g, ", packing);
+    printf("number density %.6g d^-%d\n", system_number_density(system), dimension);
     printf("          box %.6g", box.edge[0]);
     for (int axis = 1; axis < dimension; axis++) printf(" x %.6g", box.edge[axis]);
     printf(" d\n");
@@ -28,12 +30,16 @@ static void print_system(const System *system) {
 static void print_species(const System *system) {
     size_t counts[SPECIES_MOST];
     system_counts(system, counts);
-    printf("species   %-16s %10s %10s %10s %10s\n", "", "number", "diameter/d", "spread", "mass/m");
+    printf("species   %-16s %10s %10s %10s %10s  %s\n", "", "number", "diameter/d", "spread",
+           "mass/m", "shape");
     for (size_t s = 0; s < system->species_count; s++) {
         const Species *species = &system->species[s];
-        printf("          %-16s %10zu %10.6g %10.6g %10.6g\n", species->name, counts[s],
+        printf("          %-16s %10zu %10.6g %10.6g %10.6g  %s", species->name, counts[s],
                species->diameter, species->spread == SPREAD_NONE ? 0 : species->spread_width,
-               species->mass);
+               species->mass, shape_names[species->shape]);
+        if (species->shape == SHAPE_SPHEROCYLINDER) printf(" of length %.6g d", species->length);
+        if (species->shape == SHAPE_SOFT_SPHERE) printf(" of exponent %.6g", species->exponent);
+        printf("\n");
     }
 }
 

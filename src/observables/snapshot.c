@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One configuration, for a picture: where the particles of one replica were at the start or at the
-// end of the stage.
+// end of the stage, and how those with a body axis were turned.
 #include "base/memory.h"
-#include "observables/labels.h"
+#include "observables/oriented.h"
 #include "observables/put.h"
 
 typedef enum Moment { MOMENT_LAST, MOMENT_FIRST } Moment;
@@ -31,15 +31,32 @@ static const Option rows[] = {
      .about = "The replica whose configuration is kept; the first is 0."},
 };
 
-// Columns of a particle's row, here and in the results.
-enum { COLUMN_X, COLUMN_Y, COLUMN_Z, COLUMN_DIAMETER, COLUMN_SPECIES, COLUMNS };
+// Columns of a particle's row, here and in the results; the last four where some species has an
+// axis. Particles without one have length and axis 0.
+enum {
+    COLUMN_X,
+    COLUMN_Y,
+    COLUMN_Z,
+    COLUMN_DIAMETER,
+    COLUMN_SPECIES,
+    COLUMNS_OF_BALLS,
+    COLUMN_LENGTH = COLUMNS_OF_BALLS,
+    COLUMN_AXIS,
+    COLUMNS_OF_BODIES = COLUMN_AXIS + 3
+};
 
 typedef struct Snapshot {
     Observer observer;
     SnapshotSettings settings;
-    size_t particles;
-    double *rows; // [particles][COLUMNS]
+    Oriented oriented;
+    size_t particles, columns;
+    double *rows;       // [particles][columns]
+    double director[3]; // of this configuration
 } Snapshot;
+
+static size_t columns_of(const System *system) {
+    return system_is_oriented(system) ? COLUMNS_OF_BODIES : COLUMNS_OF_BALLS;
+}
 
 static void discard(Observer *observer) {
     memory_free(((Snapshot *)observer)->rows);
@@ -52,8 +69,10 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     TRY(NEW(snapshot));
     snapshot->observer = (Observer){.kind = &observable_snapshot, .clock = *clock};
     snapshot->settings = *(const SnapshotSettings *)settings->bytes;
+    snapshot->oriented = oriented_of(&state->system);
     snapshot->particles = state->count;
-    const Status status = NEW_ARRAY(snapshot->rows, COLUMNS * state->count);
+    snapshot->columns = columns_of(&state->system);
+    const Status status = NEW_ARRAY(snapshot->rows, snapshot->columns * state->count);
     if (status != OK) {
         discard(&snapshot->observer);
         return status;
@@ -68,48 +87,73 @@ static int64_t next(const Observer *observer, int64_t after) {
     return after < wanted ? wanted : INT64_MAX;
 }
 
+static void see_axis(double *row, const State *state, size_t particle) {
+    const Species *species = &state->system.species[state->species_of[particle]];
+    if (!shape_is_oriented((ShapeKind)species->shape)) return;
+    row[COLUMN_LENGTH] = species->length;
+    for (int a = 0; a < 3; a++) row[COLUMN_AXIS + a] = state->orientation[a][particle];
+}
+
 static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
     (void)tick;
     (void)tally;
-    double *row = ((Snapshot *)observer)->rows;
-    for (size_t i = 0; i < state->count; i++, row += COLUMNS) {
+    Snapshot *snapshot = (Snapshot *)observer;
+    double *row = snapshot->rows;
+    for (size_t i = 0; i < state->count; i++, row += snapshot->columns) {
         for (int a = 0; a < 3; a++) row[COLUMN_X + a] = state->position[a][i];
         row[COLUMN_DIAMETER] = state->diameter[i];
         row[COLUMN_SPECIES] = state->species_of[i];
+        if (state->oriented) see_axis(row, state, i);
     }
+    if (state->oriented) oriented_director(state, &snapshot->oriented, snapshot->director);
     return OK;
 }
 
-static const uint64_t SNAPSHOT_TAG = 0x534e415053303031; // "SNAPS001"
+static const uint64_t SNAPSHOT_TAG = 0x534e415053303032; // "SNAPS002"
 
 static void archive(Observer *observer, Archive *archive) {
     Snapshot *snapshot = (Snapshot *)observer;
     archive_tag(archive, SNAPSHOT_TAG);
-    archive_f64(archive, snapshot->rows, COLUMNS * snapshot->particles);
+    archive_f64(archive, snapshot->rows, snapshot->columns * snapshot->particles);
+    archive_f64(archive, snapshot->director, 3);
 }
 
 static Status put_particles(const Snapshot *snapshot, const double *ids, Results *results,
                             size_t replica) {
-    static const char *const columns[COLUMNS] = {"x", "y", "z", "diameter", "species"};
+    static const char *const columns[COLUMNS_OF_BODIES] = {
+        "x", "y", "z", "diameter", "species", "length", "axis_x", "axis_y", "axis_z"};
     const ResultSeries shape = {
         .unit = "d",
         .about = "Folded positions, diameters, and the number of the species (from 0) of the "
-                 "particles of one replica.",
+                 "particles of one replica; of bodies with an axis the length and the unit vector "
+                 "along it, of others zeros.",
         .axes = 2,
         .axis = {{.name = "particle", .unit = "", .count = snapshot->particles, .values = ids},
-                 {.name = "column", .unit = "", .count = COLUMNS, .labels = columns}}};
+                 {.name = "column", .unit = "", .count = snapshot->columns, .labels = columns}}};
     return observer_put_series(&snapshot->observer, "snapshot", &shape, results, replica,
                                snapshot->rows);
 }
 
-static Status put_box(const Snapshot *snapshot, const Box *box, Results *results, size_t replica) {
-    static const char *const axes[3] = {"x", "y", "z"};
+static const char *const directions[3] = {"x", "y", "z"};
+
+static Status put_director(const Snapshot *snapshot, Results *results, size_t replica) {
     const ResultSeries shape = {
-        .unit = "d",
-        .about = "Edges of the box.",
+        .unit = "",
+        .about = "Director of the body axes of the snapshot; its sign has no meaning.",
         .axes = 1,
-        .axis = {
-            {.name = "direction", .unit = "", .count = (size_t)box->dimension, .labels = axes}}};
+        .axis = {{.name = "direction", .unit = "", .count = 3, .labels = directions}}};
+    return observer_put_series(&snapshot->observer, "snapshot_director", &shape, results, replica,
+                               snapshot->director);
+}
+
+static Status put_box(const Snapshot *snapshot, const Box *box, Results *results, size_t replica) {
+    const ResultSeries shape = {.unit = "d",
+                                .about = "Edges of the box.",
+                                .axes = 1,
+                                .axis = {{.name = "direction",
+                                          .unit = "",
+                                          .count = (size_t)box->dimension,
+                                          .labels = directions}}};
     return observer_put_series(&snapshot->observer, "snapshot_box", &shape, results, replica,
                                box->edge);
 }
@@ -123,6 +167,7 @@ static Status write(const Observer *observer, const State *state, Results *resul
     for (size_t i = 0; i < snapshot->particles; i++) ids[i] = (double)i;
     Status status = put_particles(snapshot, ids, results, replica);
     if (status == OK) status = put_box(snapshot, &state->box, results, replica);
+    if (status == OK && state->oriented) status = put_director(snapshot, results, replica);
     memory_free(ids);
     return status;
 }
@@ -130,12 +175,13 @@ static Status write(const Observer *observer, const State *state, Results *resul
 static size_t memory(const Settings *settings, const System *system, const Clock *clock) {
     (void)settings;
     (void)clock;
-    return sizeof(Snapshot) + (size_t)system->particles * COLUMNS * sizeof(double);
+    return sizeof(Snapshot) + (size_t)system->particles * columns_of(system) * sizeof(double);
 }
 
 const ObservableKind observable_snapshot = {
     .name = "snapshot",
-    .about = "The first or last configuration of one replica: positions, diameters, species.",
+    .about =
+        "The first or last configuration of one replica: positions, sizes, species, body axes.",
     .options = {rows, sizeof rows / sizeof *rows, sizeof(SnapshotSettings)},
     .create = create,
     .next = next,

@@ -1,33 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws the snapshot observable. Discs: all of them, with their periodic images at the borders.
-// Spheres: seen along z, the far ones first and paler, down to a few diameters below the surface.
+// Bodies in three dimensions: seen along z, the far ones first and paler, down to where hardly any
+// is seen.
 #include "report/picture.h"
 
+#include "base/constants.h"
 #include "base/memory.h"
 #include "report/html.h"
 #include "report/palette.h"
+#include "report/picture_body.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { X, Y, Z, DIAMETER, SPECIES, COLUMNS }; // of the snapshot
-enum { PARTICLES_MOST = 6000 };               // of a page that is still quick to open
-static const double DEPTH = 4.0;              // of spheres, in d: what lies below is hidden
-static const double WIDTH = 560.0;            // of the picture, in pixels
+// Of the snapshot; the last four where some species has a body axis.
+enum { X, Y, Z, DIAMETER, SPECIES, LENGTH, AXIS, COLUMNS_OF_BALLS = LENGTH, COLUMNS = AXIS + 3 };
+enum { PARTICLES_MOST = 6000 };    // of a page that is still quick to open
+static const double LAYERS = 3.0;  // bodies above a point at the depth down to which is drawn
+static const double WIDTH = 560.0; // of the picture, in pixels
 
 typedef struct View {
     const Results *results;
     const ResultSeries *series;
     int dimension;
-    double box[3];    // in d
-    double window[2]; // the part that is drawn, from the origin, in d
-    size_t particles; // in the snapshot
+    size_t columns;
+    double box[3];      // in d
+    double window[2];   // the part that is drawn, from the origin, in d
+    double director[3]; // 0 without axes
+    double depth;       // of what is drawn, from the top, in d
+    size_t particles;   // in the snapshot
 } View;
 
 bool picture_uses(const ResultSeries *series) {
     return strcmp(series->observable, "snapshot") == 0 ||
-           strcmp(series->observable, "snapshot_box") == 0;
+           strcmp(series->observable, "snapshot_box") == 0 ||
+           strcmp(series->observable, "snapshot_director") == 0;
 }
 
 static bool is_length(double value) {
@@ -41,11 +49,12 @@ bool picture_exists(const Results *results, const ResultSeries *series) {
     for (size_t a = 0; a < box->size; a++) {
         if (!is_length(results_series_estimate(results, box, a).value)) return false;
     }
-    return series->axis[1].count == COLUMNS;
+    return series->axis[1].count == COLUMNS_OF_BALLS || series->axis[1].count == COLUMNS;
 }
 
 static double number(const View *view, size_t particle, int column) {
-    const size_t element = particle * COLUMNS + (size_t)column;
+    if ((size_t)column >= view->columns) return 0;
+    const size_t element = particle * view->columns + (size_t)column;
     return results_series_estimate(view->results, view->series, element).value;
 }
 
@@ -54,97 +63,105 @@ static size_t species(const View *view, size_t particle) {
     return index >= 0 && index < 256 ? (size_t)index : 0;
 }
 
+static double tilt(const View *view, const double axis[3]) {
+    double cosine = 0;
+    for (int a = 0; a < 3; a++) cosine += axis[a] * view->director[a];
+    return acos(fmin(1, fabs(cosine))) / (PI / 2);
+}
+
+static PictureBody body_of(const View *view, size_t particle) {
+    PictureBody body = {.radius = number(view, particle, DIAMETER) / 2,
+                        .length = number(view, particle, LENGTH),
+                        .species = species(view, particle)};
+    for (int a = 0; a < 3; a++) {
+        body.centre[a] = number(view, particle, X + a);
+        body.axis[a] = number(view, particle, AXIS + a);
+    }
+    body.tilt = tilt(view, body.axis);
+    return body;
+}
+
+static bool is_drawable(const PictureBody *body) {
+    double sum = 0;
+    for (int a = 0; a < 3; a++) sum += body->centre[a] + body->axis[a];
+    return isfinite(sum) && is_length(body->radius) && body->length >= 0 && isfinite(body->length);
+}
+
+// Down to where LAYERS bodies lie above a point in the mean; the box at most.
+static double depth_of(const View *view) {
+    double shadows = 0;
+    for (size_t i = 0; i < view->particles; i++) {
+        const PictureBody body = body_of(view, i);
+        if (is_drawable(&body)) shadows += picture_body_shadow(&body);
+    }
+    return view->box[2] * fmin(1, LAYERS * view->box[0] * view->box[1] / shadows);
+}
+
 static View view_of(const Results *results, const ResultSeries *series) {
     const ResultSeries *box = results_find_series(results, series->stage, "snapshot_box");
-    View view = {.results = results, .series = series, .dimension = (int)box->size};
+    const ResultSeries *director = results_find_series(results, series->stage, "snapshot_director");
+    View view = {.results = results,
+                 .series = series,
+                 .dimension = (int)box->size,
+                 .columns = series->axis[1].count,
+                 .particles = series->axis[0].count};
     for (size_t a = 0; a < box->size; a++) {
         view.box[a] = results_series_estimate(results, box, a).value;
     }
-    view.particles = series->axis[0].count;
+    for (size_t a = 0; a < 3 && director && director->size == 3; a++) {
+        view.director[a] = results_series_estimate(results, director, a).value;
+    }
     const double share = fmin(1.0, PARTICLES_MOST / fmax(1.0, (double)view.particles));
     const double zoom = view.dimension == 2 ? sqrt(share) : cbrt(share);
     for (int a = 0; a < 2; a++) view.window[a] = view.box[a] * zoom;
+    if (view.dimension == 3) view.depth = depth_of(&view);
     return view;
 }
 
-typedef struct Disc {
-    double x, y, z, radius;
-    size_t species;
-} Disc;
-
 static int deeper_first(const void *a, const void *b) {
-    const double left = ((const Disc *)a)->z, right = ((const Disc *)b)->z;
+    const double left = ((const PictureBody *)a)->centre[2];
+    const double right = ((const PictureBody *)b)->centre[2];
     return (left > right) - (left < right);
 }
 
-static bool touches_window(const View *view, const Disc *disc) {
-    return disc->x > -disc->radius && disc->x < view->window[0] + disc->radius &&
-           disc->y > -disc->radius && disc->y < view->window[1] + disc->radius;
+static bool touches_window(const View *view, const PictureBody *body) {
+    for (int a = 0; a < 2; a++) {
+        const double reach = picture_body_reach(body, a);
+        if (!(body->centre[a] > -reach && body->centre[a] < view->window[a] + reach)) return false;
+    }
+    return true;
 }
 
-// The particle and those of its images that touch the window; only counted if `discs` is NULL.
-static size_t put_images(const View *view, Disc disc, Disc *discs) {
+// The particle and those of its images that touch the window; only counted if `bodies` is NULL.
+static size_t put_images(const View *view, PictureBody body, PictureBody *bodies) {
     size_t count = 0;
-    const double x = disc.x, y = disc.y;
+    const double x = body.centre[0], y = body.centre[1];
     for (int i = -1; i <= 1; i++) {
         for (int j = -1; j <= 1; j++) {
-            disc.x = x + i * view->box[0];
-            disc.y = y + j * view->box[1];
-            if (!touches_window(view, &disc)) continue;
-            if (discs) discs[count] = disc;
+            body.centre[0] = x + i * view->box[0];
+            body.centre[1] = y + j * view->box[1];
+            if (!touches_window(view, &body)) continue;
+            if (bodies) bodies[count] = body;
             count++;
         }
     }
     return count;
 }
 
-static size_t collect(const View *view, Disc *discs) {
+static size_t collect(const View *view, PictureBody *bodies) {
     size_t count = 0;
     for (size_t i = 0; i < view->particles; i++) {
-        const Disc disc = {.x = number(view, i, X),
-                           .y = number(view, i, Y),
-                           .z = number(view, i, Z),
-                           .radius = number(view, i, DIAMETER) / 2,
-                           .species = species(view, i)};
-        if (!isfinite(disc.x + disc.y + disc.z) || !is_length(disc.radius)) continue;
-        if (view->dimension == 3 && disc.z < view->box[2] - DEPTH) continue;
-        count += put_images(view, disc, discs ? discs + count : NULL);
+        const PictureBody body = body_of(view, i);
+        if (!is_drawable(&body)) continue;
+        if (view->dimension == 3 && body.centre[2] < view->box[2] - view->depth) continue;
+        count += put_images(view, body, bodies ? bodies + count : NULL);
     }
-    if (discs && view->dimension == 3) qsort(discs, count, sizeof *discs, deeper_first);
+    if (bodies && view->dimension == 3) qsort(bodies, count, sizeof *bodies, deeper_first);
     return count;
 }
 
-static unsigned mixed(unsigned channel, double with_white) {
-    return (unsigned)(channel + (255 - channel) * with_white + 0.5);
-}
-
-static void put_colour(Text *page, const char *colour, double with_white) {
-    const unsigned rgb = (unsigned)strtoul(colour + 1, NULL, 16);
-    text_add(page, "#%02x%02x%02x", mixed(rgb >> 16, with_white),
-             mixed(rgb >> 8 & 0xff, with_white), mixed(rgb & 0xff, with_white));
-}
-
-static void put_highlight(Text *page, const View *view, const Disc *disc, double scale) {
-    static const double ASIDE = 0.3, SIZE = 0.4; // in radii, towards the light
-    text_add(page,
-             "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"#fff\" fill-opacity=\"0.3\" "
-             "stroke=\"none\"/>\n",
-             (disc->x - ASIDE * disc->radius) * scale,
-             (view->window[1] - disc->y - ASIDE * disc->radius) * scale,
-             SIZE * disc->radius * scale);
-}
-
-static void put_disc(Text *page, const View *view, const Disc *disc, double scale) {
-    const char *colour = PALETTE[disc->species % PALETTE_SIZE];
-    const double below = (view->box[2] - disc->z) / DEPTH; // 0 at the surface, 1 at the bottom
-    const double pale = view->dimension == 3 ? 0.25 + 0.6 * fmin(1, fmax(0, below)) : 0.45;
-    text_add(page, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"", disc->x * scale,
-             (view->window[1] - disc->y) * scale, disc->radius * scale);
-    put_colour(page, colour, pale);
-    text_put(page, "\" stroke=\"");
-    put_colour(page, colour, view->dimension == 3 ? fmax(0, pale - 0.4) : 0.0);
-    text_put(page, "\"/>\n");
-    if (view->dimension == 3) put_highlight(page, view, disc, scale);
+static bool is_oriented(const View *view) {
+    return view->columns == COLUMNS;
 }
 
 static double bar_length(double width) { // 1, 2 or 5 times a power of ten, near a fifth
@@ -161,24 +178,48 @@ static void put_scale_bar(Text *page, const View *view, double scale) {
              y, length * scale, y - 4, length * scale + 8, y + 5, length);
 }
 
+// What the colours of bodies with an axis mean, at the right of the scale bar.
+static void put_colour_bar(Text *page, const View *view, double scale) {
+    enum { STEPS = 18 };
+    static const double LEFT = 300, STEP = 9;
+    const double y = view->window[1] * scale + 11;
+    for (int i = 0; i < STEPS; i++) {
+        char colour[COLOUR_SIZE];
+        picture_tilt_colour(colour, (i + 0.5) / STEPS);
+        text_add(page, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"10\" fill=\"%s\"/>\n",
+                 LEFT + STEP * i, y, STEP + 0.5, colour);
+    }
+    text_add(page,
+             "<text x=\"%.1f\" y=\"%.1f\" font-size=\"15\" text-anchor=\"end\">axis to "
+             "director: 0°</text><text x=\"%.1f\" y=\"%.1f\" font-size=\"15\">90°</text>\n",
+             LEFT - 6, y + 10, LEFT + STEP * STEPS + 6, y + 10);
+}
+
 void picture_draw(Text *page, const Results *results, const ResultSeries *series) {
     const View view = view_of(results, series);
-    const double scale = WIDTH / view.window[0], height = view.window[1] * scale;
+    const double pixels = WIDTH / view.window[0], height = view.window[1] * pixels;
+    const PictureScale scale = {.pixels = pixels,
+                                .height = view.window[1],
+                                .flat = view.dimension == 2,
+                                .oriented = is_oriented(&view),
+                                .top = view.box[2],
+                                .depth = view.depth};
     const size_t count = collect(&view, NULL);
-    Disc *discs = NULL;
-    if (NEW_ARRAY(discs, count) != OK) return;
-    collect(&view, discs);
+    PictureBody *bodies = NULL;
+    if (NEW_ARRAY(bodies, count) != OK) return;
+    collect(&view, bodies);
     text_add(page,
              "<svg class=\"picture\" viewBox=\"-2 -2 %.1f %.1f\" "
              "xmlns=\"http://www.w3.org/2000/svg\" role=\"img\"><title>Configuration</title>\n"
              "<svg width=\"%.2f\" height=\"%.2f\" stroke-width=\"%.2f\">\n", // clips to the box
-             WIDTH + 4, height + 30, WIDTH, height, fmin(1.0, 0.06 * scale));
-    for (size_t i = 0; i < count; i++) put_disc(page, &view, &discs[i], scale);
+             WIDTH + 4, height + 30, WIDTH, height, fmin(1.0, 0.06 * pixels));
+    for (size_t i = 0; i < count; i++) picture_body_draw(page, &bodies[i], &scale);
     text_add(page, "</svg>\n<rect width=\"%.2f\" height=\"%.2f\" fill=\"none\" stroke=\"#222\"/>\n",
              WIDTH, height);
-    put_scale_bar(page, &view, scale);
+    put_scale_bar(page, &view, pixels);
+    if (is_oriented(&view)) put_colour_bar(page, &view, pixels);
     text_put(page, "</svg>\n");
-    memory_free(discs);
+    memory_free(bodies);
 }
 
 // The names of the species, where some series has them along an axis.
@@ -216,13 +257,17 @@ static void put_legend(Text *page, const View *view) {
 
 void picture_caption(Text *page, const Results *results, const ResultSeries *series) {
     const View view = view_of(results, series);
-    put_legend(page, &view);
+    if (!is_oriented(&view)) put_legend(page, &view);
     text_add(page, "%zu particles of one replica in the periodic box of %.4g × %.4g",
              view.particles, view.box[0], view.box[1]);
     if (view.dimension == 3) text_add(page, " × %.4g", view.box[2]);
     text_put(page, " d, to scale.");
     if (view.dimension == 3) {
-        text_add(page, " Seen along z: the uppermost %g d, deeper spheres paler.", DEPTH);
+        text_add(page, " Seen along z: the uppermost %.2g d, deeper ones paler.", view.depth);
+    }
+    if (is_oriented(&view)) {
+        text_put(page, " Colours: the angle between a body's axis and the director of this "
+                       "configuration; without order the director is arbitrary.");
     }
     if (view.window[0] < view.box[0]) text_put(page, " A corner of the box is shown.");
 }

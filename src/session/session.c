@@ -143,17 +143,29 @@ static Status put_when_and_where(Results *results, double seconds) {
     return results_put_fact(results, "wall_seconds", text);
 }
 
+// Platelets have no volume, so that their number density says how dense they are.
+static void put_density(Text *words, const System *system) {
+    const double packing = system_packing_fraction(system);
+    if (packing > 0)
+        text_add(words, "packing fraction %.6g", packing);
+    else
+        text_add(words, "number density %.6g d^-%d", system_number_density(system),
+                 (int)system->dimension);
+}
+
 // "1000 particles in 2 dimensions, packing fraction 0.7: 500 small of diameter 1, 500 big of ..."
 static Status put_system(Results *results, const System *system) {
     size_t counts[SPECIES_MOST];
     system_counts(system, counts);
     Text words = {0};
-    text_add(&words, "%lld particles in %d dimensions, packing fraction %.6g",
-             (long long)system->particles, (int)system->dimension, system_packing_fraction(system));
+    text_add(&words, "%lld particles in %d dimensions, ", (long long)system->particles,
+             (int)system->dimension);
+    put_density(&words, system);
     for (size_t s = 0; s < system->species_count; s++) {
         const Species *species = &system->species[s];
         text_add(&words, "%s%zu %s of diameter %.6g", s ? ", " : ": ", counts[s], species->name,
                  species->diameter);
+        if (species->length > 0) text_add(&words, " and length %.6g", species->length);
         if (species->spread != SPREAD_NONE)
             text_add(&words, " ± %.3g %%", 100 * species->spread_width);
         if (species->mass != 1) text_add(&words, " and mass %.6g", species->mass);

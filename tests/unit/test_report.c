@@ -320,6 +320,49 @@ START_TEST(a_disc_at_the_corner_is_drawn_with_its_images) {
 }
 END_TEST
 
+// A rod in the middle of a face, a platelet seen at 60 degrees, a ball: the rod is three lines, the
+// ball a disc and its light, and no image of either touches the window.
+START_TEST(bodies_are_drawn_as_they_are_seen_along_z) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    const double ids[] = {0, 1, 2}, edges[] = {10, 10, 10}, director[] = {0, 0, 1};
+    const double rows[] = {5, 5, 9, 1,   0, 4, 1,          0, 0,   /* and */
+                           3, 3, 8, 1.2, 1, 0, sqrt(0.75), 0, 0.5, /* and */
+                           7, 7, 7, 1,   2, 0, 0,          0, 0};
+    const char *const columns[] = {"x",      "y",      "z",      "diameter", "species",
+                                   "length", "axis_x", "axis_y", "axis_z"};
+    const char *const axes[] = {"x", "y", "z"};
+    const ResultSeries snapshot = {
+        .stage = "rest",
+        .observable = "snapshot",
+        .axes = 2,
+        .axis = {{.name = "particle", .unit = "", .count = 3, .values = ids},
+                 {.name = "column", .unit = "", .count = 9, .labels = columns}}};
+    ResultSeries vector = {.stage = "rest",
+                           .observable = "snapshot_box",
+                           .axes = 1,
+                           .axis = {{.name = "direction", .unit = "", .count = 3, .labels = axes}}};
+    results_put_series(results, &snapshot, 0, rows);
+    results_put_series(results, &vector, 0, edges);
+    strcpy(vector.observable, "snapshot_director");
+    results_put_series(results, &vector, 0, director);
+    const ResultSeries *series = results_find_series(results, "rest", "snapshot");
+    ck_assert(picture_exists(results, series));
+    Text picture = {0};
+    picture_draw(&picture, results, series);
+    const char *words = picture.bytes;
+    const double pixels = 56;                                                 // per d
+    ck_assert_uint_eq(count_of(words, "stroke-linecap=\"round\""), 3);        // of the rod
+    ck_assert_ptr_nonnull(strstr(words, "d=\"M168.00 280.00l224.00 ")); // 3 d to 7 d
+    char ellipse[128];
+    snprintf(ellipse, sizeof ellipse, "rx=\"%.2f\" ry=\"%.2f\"", 0.3 * pixels, 0.6 * pixels);
+    ck_assert_ptr_nonnull(strstr(words, ellipse));
+    ck_assert_uint_eq(count_of(words, "<circle"), 2);
+    text_free(&picture);
+    results_free(results);
+}
+END_TEST
+
 START_TEST(a_broken_limit_is_the_first_thing_a_reader_sees) {
     const Place place = new_place();
     Results *results = sample();
@@ -396,6 +439,7 @@ int main(void) {
     tcase_add_test(tests, points_without_an_error_are_drawn_all_the_same);
     tcase_add_test(tests, a_reference_stands_beside_its_number_with_the_deviation);
     tcase_add_test(tests, a_disc_at_the_corner_is_drawn_with_its_images);
+    tcase_add_test(tests, bodies_are_drawn_as_they_are_seen_along_z);
     tcase_add_test(tests, a_broken_limit_is_the_first_thing_a_reader_sees);
     tcase_add_test(tests, where_nothing_can_be_written_the_sentence_names_the_path);
     tcase_add_test(tests, an_observable_without_a_row_is_drawn_by_the_plain_rule);
