@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the ways to a structure look like to each other. Inside oz/ only.
+#pragma once
+
+#include "oz/oz.h"
+
+// Fills `direct` and `contact` of a structure whose other fields are set.
+typedef struct Discs Discs; // Percus-Yevick discs by collocation
+
+void closed_spheres(Structure *structure); // Percus-Yevick, any mixture
+void closed_verlet_weis(Structure *structure);
+void closed_fundamental(Structure *structure);
+void closed_baus_colot(Structure *structure);
+
+Status discs_create(Discs **out, const Mixture *mixture, const double *wave_number, size_t count);
+void discs_free(Discs *discs);
+Status discs_solve(Discs *discs, Structure *structure, OzEffort *effort);

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mode-coupling theory: the kernel against the direct integral over wave vectors, its derivative
+// and adjoint, and glass transitions against values computed with another program.
+#include "mct/critical.h"
+#include "mct/glass.h"
+
+#include "base/memory.h"
+#include "numerics/quadrature.h"
+
+#include <check.h>
+#include <math.h>
+#include <string.h>
+
+// Smooth stand-ins for c_ab(q) and Phi_ab(q), which the kernel takes as they come.
+static double direct_like(size_t pair, double q) {
+    static const double strength[] = {-3, -4, -5.5}, width[] = {9, 7, 6};
+    return strength[pair] * exp(-q * q / (width[pair] * width[pair]));
+}
+
+static double correlator_like(size_t pair, double q) {
+    static const double strength[] = {0.6, -0.2, 0.5}, width[] = {8, 6, 7};
+    return strength[pair] * (1 + 0.3 * q * q / 10) * exp(-q * q / (width[pair] * width[pair]));
+}
+
+typedef struct Fixture {
+    Mixture mixture;
+    Grid *grid;
+    Model *model;
+    double *phi, *h, *g, *out, *back;
+} Fixture;
+
+static Fixture fixture_new(int dimension, size_t species) {
+    Fixture f = {.mixture = {dimension, species, {1, 1.4}, {species == 1 ? 1 : 0.4, 0.6}}};
+    ck_assert_int_eq(grid_create(&f.grid, dimension, 200, 40), OK);
+    Structure s = {.mixture = f.mixture, .density = 0.8, .count = f.grid->count};
+    const size_t pairs = mixture_pairs(&f.mixture);
+    ck_assert_int_eq(NEW_ARRAY(s.direct, pairs * s.count), OK);
+    ck_assert_int_eq(NEW_ARRAY(s.factor, pairs * s.count), OK);
+    for (size_t i = 0; i < pairs * s.count; i++)
+        s.direct[i] = direct_like(i / s.count, f.grid->wave_number[i % s.count]);
+    ck_assert_int_eq(model_create(&f.model, f.grid, &s), OK);
+    memory_free(s.direct);
+    memory_free(s.factor);
+    double **const fields[] = {&f.phi, &f.h, &f.g, &f.out, &f.back};
+    for (size_t i = 0; i < 5; i++) ck_assert_int_eq(NEW_ARRAY(*fields[i], f.model->size), OK);
+    for (size_t pair = 0; pair < pairs; pair++) {
+        for (size_t m = 0; m < f.grid->count; m++) {
+            const size_t i = pair * f.grid->stride + m;
+            const double q = f.grid->wave_number[m];
+            f.phi[i] = correlator_like(pair, q);
+            f.h[i] = (1.5 + sin(3.0 * (double)(i % 97))) * exp(-q * q / 200);
+            f.g[i] = (1.5 + cos(2.0 * (double)(i % 89))) * exp(-q * q / 300);
+        }
+    }
+    return f;
+}
+
+static void fixture_free(Fixture *f) {
+    double *const fields[] = {f->phi, f->h, f->g, f->out, f->back};
+    for (size_t i = 0; i < 5; i++) memory_free(fields[i]);
+    model_free(f->model);
+    grid_free(f->grid);
+}
+
+static size_t pair_of(const Fixture *f, size_t a, size_t b) {
+    return mixture_pair(f->mixture.species, a, b);
+}
+
+// The vertex of species a with a', a'' (Weysser, thesis, eq. 3.5): q.k c_k^{aa'} delta_{aa''} + q.p
+// c_p^{aa''} delta_{aa'}.
+static double vertex(const Fixture *f, size_t a, size_t first, size_t second, const double dot[2],
+                     double k, double p) {
+    double sum = 0;
+    if (second == a) sum += dot[0] * direct_like(pair_of(f, a, first), k);
+    if (first == a) sum += dot[1] * direct_like(pair_of(f, a, second), p);
+    return sum;
+}
+
+static double species_sum(const Fixture *f, size_t a, size_t b, const double dot[2], double k,
+                          double p) {
+    const size_t species = f->mixture.species;
+    double sum = 0;
+    for (size_t i = 0; i < species * species * species * species; i++) {
+        const size_t a1 = i % species, a2 = i / species % species;
+        const size_t b1 = i / species / species % species, b2 = i / species / species / species;
+        sum += vertex(f, a, a1, a2, dot, k, p) * vertex(f, b, b1, b2, dot, k, p) *
+               correlator_like(pair_of(f, a1, b1), k) * correlator_like(pair_of(f, a2, b2), p);
+    }
+    return sum;
+}
+
+// M_ab(q) = rho/(2 x_a x_b q^4) int d^dk/(2 pi)^d vertices Phi_k Phi_p, p = q - k, in polar
+// coordinates: the slow twin.
+static double direct_integral(const Fixture *f, size_t a, size_t b, double q) {
+    enum { K = 256, ANGLES = 128 };
+    const int d = f->mixture.dimension;
+    double k[K], k_weight[K], angle[ANGLES], angle_weight[ANGLES], sum = 0;
+    quadrature_legendre(K, 0, 40, k, k_weight);
+    quadrature_legendre(ANGLES, 0, M_PI, angle, angle_weight);
+    for (size_t i = 0; i < K; i++) {
+        for (size_t j = 0; j < ANGLES; j++) {
+            const double qk = q * k[i] * cos(angle[j]);
+            const double dot[2] = {qk, q * q - qk};
+            const double p = sqrt(q * q + k[i] * k[i] - 2 * qk);
+            const double shell = d == 2 ? 2 * k[i] : 2 * M_PI * sin(angle[j]) * k[i] * k[i];
+            sum += k_weight[i] * angle_weight[j] * shell * species_sum(f, a, b, dot, k[i], p);
+        }
+    }
+    const double *x = f->mixture.fraction;
+    return 0.8 / (2 * x[a] * x[b] * pow(q, 4)) * sum / pow(2 * M_PI, d);
+}
+
+START_TEST(the_kernel_is_the_direct_double_integral) {
+    static const size_t at[] = {0, 3, 20, 35};
+    for (int which = 0; which < 4; which++) {
+        Fixture f = fixture_new(2 + which % 2, 1 + (size_t)which / 2);
+        model_memory(f.model, f.phi, f.out);
+        for (size_t i = 0; i < 4; i++) {
+            for (size_t a = 0; a < f.mixture.species; a++) {
+                for (size_t b = a; b < f.mixture.species; b++) {
+                    const double direct = direct_integral(&f, a, b, f.grid->wave_number[at[i]]);
+                    const double kernel = f.out[pair_of(&f, a, b) * f.grid->stride + at[i]];
+                    ck_assert_double_eq_tol(kernel, direct, 1e-9 * fabs(f.out[0]));
+                    ck_assert_double_eq_tol(kernel, direct, 1e-6 * fabs(direct));
+                }
+            }
+        }
+        fixture_free(&f);
+    }
+}
+END_TEST
+
+START_TEST(slope_is_the_derivative_and_adjoint_its_transpose) {
+    static const double STEP = 1e-4;
+    for (int which = 0; which < 4; which++) {
+        Fixture f = fixture_new(2 + which % 2, 1 + (size_t)which / 2);
+        Radial radial;
+        ck_assert_int_eq(radial_create(&radial, f.model), OK);
+        model_transform(f.model, f.phi, &radial);
+        model_slope(f.model, &radial, f.h, f.out);
+        model_adjoint(f.model, &radial, f.g, f.back);
+        const double there = model_product(f.model, f.g, f.out);
+        ck_assert_double_eq_tol(model_product(f.model, f.back, f.h), there, 1e-11 * fabs(there));
+        double *above = f.back, *below = f.g, largest = 0;
+        for (size_t i = 0; i < f.model->size; i++) {
+            largest = fmax(largest, fabs(f.out[i]));
+            f.phi[i] += STEP * f.h[i];
+        }
+        model_memory(f.model, f.phi, above);
+        for (size_t i = 0; i < f.model->size; i++) f.phi[i] -= 2 * STEP * f.h[i];
+        model_memory(f.model, f.phi, below);
+        for (size_t i = 0; i < f.model->size; i++)
+            ck_assert_double_eq_tol((above[i] - below[i]) / (2 * STEP), f.out[i], 1e-8 * largest);
+        radial_free(&radial);
+        fixture_free(&f);
+    }
+}
+END_TEST
+
+static CriticalPoint *found(const CriticalSearch *search) {
+    CriticalPoint *point = NULL;
+    ck_assert_msg(critical_find(&point, search) == OK, "%s", status_sentence());
+    ck_assert_double_eq_tol(point->curvature / point->expected_curvature, 1, 5e-4);
+    return point;
+}
+
+// Another program of ours, spectral as well: Percus-Yevick spheres, cutoff 60, phi_c to 1e-7.
+START_TEST(spheres_freeze_where_another_program_says) {
+    const Mixture spheres = {3, 1, {1}, {1}};
+    CriticalPoint *point =
+        found(&(CriticalSearch){spheres, CLOSURE_PERCUS_YEVICK, 306, 60, 0.45, 0.6});
+    ck_assert_double_eq_tol(point->packing_fraction, 0.5158142, 1e-7);
+    const double percus_yevick = point->packing_fraction;
+    critical_free(point);
+    // Verlet and Weis rescale the packing fraction: f - f^2/16 is that of Percus-Yevick.
+    point = found(&(CriticalSearch){spheres, CLOSURE_VERLET_WEIS, 306, 60, 0.45, 0.6});
+    ck_assert_double_eq_tol(point->packing_fraction, 8 * (1 - sqrt(1 - percus_yevick / 4)), 1e-6);
+    critical_free(point);
+}
+END_TEST
+
+// Discs 5/7 and 1/3: the other program, transforms, cutoff and count as given (lengths in the
+// larger diameter).
+START_TEST(binary_discs_freeze_where_another_program_says) {
+    static const struct {
+        double ratio, small, phi, lambda, gamma, last;
+        size_t count;
+    } known[] = {{5.0 / 7, 0.5, 0.685874, 0.71866, 2.38745, 59.84, 305},
+                 {5.0 / 7, 0.2, 0.688301, 0.70649, 2.33585, 59.84, 305},
+                 {1.0 / 3, 0.5, 0.693955, 0.75236, 2.54930, 119.9, 611}};
+    for (int i = 0; i < 3; i++) {
+        const Mixture mixture = {2, 2, {known[i].ratio, 1}, {known[i].small, 1 - known[i].small}};
+        CriticalPoint *point = found(&(CriticalSearch){mixture, CLOSURE_PERCUS_YEVICK,
+                                                       known[i].count, known[i].last, 0.6, 0.74});
+        ck_assert_double_eq_tol(point->packing_fraction, known[i].phi, 1e-6);
+        ck_assert_double_eq_tol(point->exponents.lambda, known[i].lambda, 1e-5);
+        ck_assert_double_eq_tol(point->exponents.gamma, known[i].gamma, 1e-4);
+        critical_free(point);
+    }
+}
+END_TEST
+
+// phi_c of discs from finer grids approaches its limit faster than any power of the range.
+START_TEST(the_transition_converges_in_the_grid) {
+    const Mixture discs = {2, 1, {1}, {1}};
+    double phi[3];
+    for (size_t i = 0; i < 3; i++) {
+        const size_t count = 102 + 51 * i; // range 8, 12, 16 at cutoff 40
+        CriticalPoint *point =
+            found(&(CriticalSearch){discs, CLOSURE_FUNDAMENTAL, count, 40, 0.6, 0.74});
+        phi[i] = point->packing_fraction;
+        critical_free(point);
+    }
+    ck_assert_double_eq_tol(phi[2], 0.6906, 5e-5); // the other program
+    ck_assert(fabs(phi[0] - phi[2]) < 1.5e-3);
+    ck_assert(fabs(phi[1] - phi[2]) < 1e-4);
+    ck_assert(fabs(phi[1] - phi[2]) < 0.2 * fabs(phi[0] - phi[2]));
+}
+END_TEST
+
+START_TEST(a_bracket_that_holds_no_transition_is_refused) {
+    const Mixture spheres = {3, 1, {1}, {1}};
+    CriticalPoint *point = NULL;
+    CriticalSearch search = {spheres, CLOSURE_PERCUS_YEVICK, 60, 30, 0.3, 0.45};
+    ck_assert_int_eq(critical_find(&point, &search), BAD_DATA);
+    search.low = 0.55;
+    search.high = 0.58;
+    ck_assert_int_eq(critical_find(&point, &search), BAD_DATA);
+    ck_assert_ptr_null(point);
+}
+END_TEST
+
+// A table of the literature (Goetze 1984 and later): lambda, a, b, gamma.
+START_TEST(exponents_follow_from_lambda) {
+    static const double known[][4] = {{0.7, 0.326959, 0.640741, 2.309609},
+                                      {0.707106781, 0.323962, 0.628938, 2.338380},
+                                      {0.735, 0.311660, 0.582867, 2.462137},
+                                      {0.74, 0.309357, 0.574639, 2.486364}};
+    Exponents e;
+    for (int i = 0; i < 4; i++) {
+        ck_assert_int_eq(exponents_of(known[i][0], &e), OK);
+        ck_assert_double_eq_tol(e.a, known[i][1], 1e-6);
+        ck_assert_double_eq_tol(e.b, known[i][2], 1e-6);
+        ck_assert_double_eq_tol(e.gamma, 1 / (2 * known[i][1]) + 1 / (2 * known[i][2]), 2e-5);
+        ck_assert_double_eq_tol(tgamma(1 - e.a) * tgamma(1 - e.a) / tgamma(1 - 2 * e.a),
+                                known[i][0], 1e-10);
+    }
+    ck_assert_int_eq(exponents_of(0.5, &e), OK);
+    ck_assert_double_eq_tol(e.b, 1, 1e-9);
+    ck_assert_int_eq(exponents_of(1, &e), BAD_DATA);
+}
+END_TEST
+
+int main(void) {
+    Suite *suite = suite_create("mct");
+    TCase *tests = tcase_create("theory");
+    tcase_set_timeout(tests, 300);
+    tcase_add_test(tests, the_kernel_is_the_direct_double_integral);
+    tcase_add_test(tests, slope_is_the_derivative_and_adjoint_its_transpose);
+    tcase_add_test(tests, spheres_freeze_where_another_program_says);
+    tcase_add_test(tests, binary_discs_freeze_where_another_program_says);
+    tcase_add_test(tests, the_transition_converges_in_the_grid);
+    tcase_add_test(tests, a_bracket_that_holds_no_transition_is_refused);
+    tcase_add_test(tests, exponents_follow_from_lambda);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed != 0;
+}
