@@ -136,3 +136,32 @@ static inline const ResultSeries *series_of(const Results *results, const char *
     ck_assert_msg(series != NULL, "no series '%s/%s'", stage, observable);
     return series;
 }
+
+static inline Clock clock_of(int64_t ticks, int64_t per_step) {
+    return (Clock){.tick = 0.5,
+                   .flight_time = 0.25,
+                   .ticks = ticks,
+                   .ticks_per_step = per_step,
+                   .unit = "d^2/D0",
+                   .stage = "quiescent",
+                   .thermostatted = true};
+}
+
+// Moves every particle to where it is at a tick.
+typedef void (*Mover)(State *state, int64_t tick);
+
+// Lets the observer look whenever it wants to within (from, to]; from -1 the start is included.
+static inline void watch(Observer *observer, State *state, Mover mover, int64_t from, int64_t to) {
+    const Tally none = {0};
+    for (int64_t tick = observer->kind->next(observer, from); tick <= to;
+         tick = observer->kind->next(observer, tick)) {
+        mover(state, tick);
+        ck_assert_int_eq(observer->kind->see(observer, tick, state, &none), OK);
+    }
+}
+
+static inline void fold(State *state, int axis, size_t i, double unfolded) {
+    const double turns = floor(unfolded / state->box.edge[axis]);
+    state->image[axis][i] = (int32_t)turns;
+    state->position[axis][i] = unfolded - turns * state->box.edge[axis];
+}

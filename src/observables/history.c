@@ -10,7 +10,7 @@ Status history_make(History *history, const Lags *lags, size_t width) {
     history->lags = *lags;
     history->width = width;
     TRY(NEW_ARRAY(history->frames, lags->slots * width));
-    return NEW_ARRAY(history->seen, lags->count);
+    return NEW_ARRAY(history->seen, lags_rows(lags));
 }
 
 void history_clear(History *history) {
@@ -19,22 +19,24 @@ void history_clear(History *history) {
 }
 
 size_t history_memory(const Lags *lags, size_t width) {
-    return lags->slots * width * sizeof(double) + lags->count * sizeof(int64_t);
+    return lags->slots * width * sizeof(double) + lags_rows(lags) * sizeof(int64_t);
 }
 
 void history_archive(History *history, Archive *archive) {
     archive_f64(archive, history->frames, history->lags.slots * history->width);
-    archive_i64(archive, history->seen, history->lags.count);
+    archive_i64(archive, history->seen, lags_rows(&history->lags));
 }
 
-const double *history_begun(History *history, int64_t tick, size_t k) {
-    if (!lags_ends(&history->lags, tick, k)) return NULL;
-    history->seen[k]++;
-    return history->frames + lags_slot(&history->lags, tick, k) * history->width;
+const double *history_begun(History *history, int64_t tick, size_t k, size_t *row) {
+    const int64_t slot = lags_slot(&history->lags, tick - history->lags.ticks[k]);
+    if (slot == LAGS_NO_ORIGIN) return NULL;
+    *row = lags_row(&history->lags, slot, k);
+    history->seen[*row]++;
+    return history->frames + (size_t)slot * history->width;
 }
 
 void history_keep(History *history, int64_t tick, const double *frame) {
-    if (!lags_is_origin(&history->lags, tick)) return;
-    const size_t slot = (size_t)(tick / history->lags.spacing) % history->lags.slots;
-    memcpy(history->frames + slot * history->width, frame, history->width * sizeof *frame);
+    const int64_t slot = lags_slot(&history->lags, tick);
+    if (slot == LAGS_NO_ORIGIN) return;
+    memcpy(history->frames + (size_t)slot * history->width, frame, history->width * sizeof *frame);
 }

@@ -10,7 +10,7 @@ typedef struct History {
     Lags lags;
     size_t width;
     double *frames; // [slots][width]
-    int64_t *seen;  // [lags]: origins from which each has been seen
+    int64_t *seen;  // [rows of lags]: origins from which each has been seen
 } History;
 
 Status history_make(History *history, const Lags *lags, size_t width);
@@ -18,8 +18,9 @@ void history_clear(History *history);
 size_t history_memory(const Lags *lags, size_t width); // bytes
 void history_archive(History *history, Archive *archive);
 
-// The frame with which lag `k` began, counted as seen; NULL if the lag does not end at `tick`.
-const double *history_begun(History *history, int64_t tick, size_t k);
+// The frame with which lag `k` began, counted as seen, and in `row` where its sums are; NULL if the
+// lag does not end at `tick`.
+const double *history_begun(History *history, int64_t tick, size_t k, size_t *row);
 
 // Keeps a frame if `tick` is a time origin. To be called after the lags that end have been seen.
 void history_keep(History *history, int64_t tick, const double *frame);

@@ -33,7 +33,7 @@ Lags lags_of(const Clock *clock, double first, double last, int64_t per_decade, 
     const int64_t shortest = first > 0 ? whole_ticks(clock, first) : 1;
     const int64_t longest =
         last > 0 ? whole_ticks(clock, last) : between(clock->ticks / 3, 1, clock->ticks);
-    Lags lags = {.spacing = round_up(between(longest / origins, 1, longest), step)};
+    Lags lags = {.spacing = round_up(round_up(longest, origins) / origins, step)};
     const int64_t far = SPACINGS_FAR * lags.spacing;
     const double ratio = pow(10, 1 / (double)per_decade);
     const double before_last = (double)longest / sqrt(ratio); // no near twin of the longest lag
@@ -52,7 +52,21 @@ Lags lags_of(const Clock *clock, double first, double last, int64_t per_decade, 
     return lags;
 }
 
-int64_t lags_next(const Lags *lags, const Clock *clock, int64_t after) {
+static int64_t next_of_waits(const Lags *lags, int64_t after) {
+    int64_t next = INT64_MAX;
+    for (size_t w = 0; w < lags->waits; w++) {
+        const int64_t wait = lags->wait[w];
+        if (wait > after && wait < next) next = wait;
+        for (size_t k = 0; k < lags->count; k++) {
+            if (wait + lags->ticks[k] <= after) continue;
+            if (wait + lags->ticks[k] < next) next = wait + lags->ticks[k];
+            break;
+        }
+    }
+    return next;
+}
+
+static int64_t next_of_many(const Lags *lags, int64_t after) {
     if (after < 0) return 0;
     int64_t next = after - after % lags->spacing + lags->spacing;
     for (size_t k = 0; k < lags->count && lags->ticks[k] < next; k++) {
@@ -61,16 +75,55 @@ int64_t lags_next(const Lags *lags, const Clock *clock, int64_t after) {
             since < 0 ? lags->ticks[k] : after - since % lags->spacing + lags->spacing;
         if (end < next) next = end;
     }
+    return next;
+}
+
+int64_t lags_next(const Lags *lags, const Clock *clock, int64_t after) {
+    const int64_t next = lags->waits > 0 ? next_of_waits(lags, after) : next_of_many(lags, after);
     return next <= clock->ticks ? next : INT64_MAX;
 }
 
+// Whole steps after the stage began; a time within a step of the one before is left out.
+static void add_waits(Lags *lags, const OptionReals *times, const Clock *clock) {
+    for (int64_t w = 0; w < times->count; w++) {
+        const double steps = times->values[w] / (clock->tick * (double)clock->ticks_per_step);
+        const int64_t wait = (int64_t)rint(steps) * clock->ticks_per_step;
+        if (lags->waits > 0 && wait <= lags->wait[lags->waits - 1]) continue;
+        lags->wait[lags->waits++] = wait;
+    }
+    lags->slots = lags->waits;
+}
+
 Lags lags_chosen(const LagSettings *settings, const Clock *clock) {
-    return lags_of(clock, settings->first, settings->last, settings->per_decade, settings->origins);
+    const bool many = settings->waiting_times.count == 0;
+    // Lags from one origin need not end at another.
+    const int64_t origins = many ? settings->origins : clock->ticks;
+    Lags lags = lags_of(clock, settings->first, settings->last, settings->per_decade, origins);
+    if (!many) add_waits(&lags, &settings->waiting_times, clock);
+    return lags;
+}
+
+static Status check_waits(const char *observable, const OptionReals *waits, const Clock *clock) {
+    const double time = clock->tick * (double)clock->ticks;
+    for (int64_t w = 0; w < waits->count; w++) {
+        if (w > 0 && !(waits->values[w] > waits->values[w - 1])) {
+            return status_fail(BAD_DATA, "%s: waiting_times must ascend, but %g follows %g",
+                               observable, waits->values[w], waits->values[w - 1]);
+        }
+        if (!(waits->values[w] < time)) {
+            return status_fail(BAD_DATA,
+                               "%s: a waiting time of %g is not within the stage '%s' of %g %s; "
+                               "make the stage longer or the time shorter",
+                               observable, waits->values[w], clock->stage, time, clock->unit);
+        }
+    }
+    return OK;
 }
 
 Status lags_check(const char *observable, const LagSettings *settings, const Clock *clock) {
     const double time = clock->tick * (double)clock->ticks;
     const double last = settings->last > 0 ? settings->last : time / 3;
+    TRY(check_waits(observable, &settings->waiting_times, clock));
     if (last > time * (1 + 1e-9)) {
         return status_fail(BAD_DATA,
                            "%s: times.last = %g is longer than the stage '%s' of %g %s; make the "
@@ -94,4 +147,18 @@ Status lags_check(const char *observable, const LagSettings *settings, const Clo
 
 void lags_times(const Lags *lags, const Clock *clock, double *times) {
     for (size_t k = 0; k < lags->count; k++) times[k] = (double)lags->ticks[k] * clock->tick;
+}
+
+size_t lags_axes(const Lags *lags, const Clock *clock, double *values, ResultAxis *axes) {
+    size_t count = 0;
+    if (lags->waits > 0) {
+        for (size_t w = 0; w < lags->waits; w++) values[w] = (double)lags->wait[w] * clock->tick;
+        axes[count++] = (ResultAxis){
+            .name = "waiting_time", .unit = clock->unit, .count = lags->waits, .values = values};
+    }
+    double *times = values + lags->waits;
+    lags_times(lags, clock, times);
+    axes[count++] =
+        (ResultAxis){.name = "time", .unit = clock->unit, .count = lags->count, .values = times};
+    return count;
 }

@@ -4,6 +4,9 @@
 // in a ring; each lag is seen from every origin. Long lags are multiples of the spacing, so that
 // they end where another origin is and need no look of their own. A lag longer than a step is a
 // whole number of steps: a walk by whole intervals has no sub-interval phase.
+//
+// What ages is seen from given origins instead, waiting times after the stage began, each by
+// itself: sums then have a row for every waiting time and lag, else for every lag.
 #pragma once
 
 #include "observables/observables.h"
@@ -15,6 +18,8 @@ typedef struct Lags {
     size_t slots;    // origins that are kept
     size_t count;
     int64_t ticks[LAGS_MOST]; // ascending
+    size_t waits;             // waiting times; 0: the origins are evenly spaced
+    int64_t wait[OPTION_LIST_SIZE];
 } Lags;
 
 // Times in the clock's unit; a `first` of 0 is one tick, a `last` of 0 a third of the stage.
@@ -25,6 +30,7 @@ Lags lags_of(const Clock *clock, double first, double last, int64_t per_decade, 
 typedef struct LagSettings {
     double first, last;
     int64_t per_decade, origins;
+    OptionReals waiting_times; // empty where the observable has no such key
 } LagSettings;
 
 // Their rows of an option table, for the member `lags` of the struct `Type`.
@@ -58,6 +64,16 @@ typedef struct LagSettings {
         .about = "Time origins within the longest lag: as many configurations are kept in memory." \
     }
 
+// A further row, of the observables that can tell one origin from another.
+#define WAITING_OPTION(Type, lags)                                                                 \
+    {                                                                                              \
+        .name = "waiting_times", .type = OPTION_REALS,                                             \
+        .offset = offsetof(Type, lags.waiting_times), .least = 0, .most = 1e12,                    \
+        .unit = "time unit of the stage",                                                          \
+        .about = "Time origins, ascending, counted from the start of the stage, each shown by "    \
+                 "itself: how a sample ages; empty: the mean over many origins.",                  \
+    }
+
 Lags lags_chosen(const LagSettings *settings, const Clock *clock);
 
 // BAD_DATA with a sentence if they do not fit into the stage.
@@ -68,16 +84,29 @@ void lags_times(const Lags *lags, const Clock *clock, double *times); // in the 
 // The first tick after `after` that is an origin or at which a lag ends; INT64_MAX past the end.
 int64_t lags_next(const Lags *lags, const Clock *clock, int64_t after);
 
-static inline bool lags_is_origin(const Lags *lags, int64_t tick) {
-    return tick % lags->spacing == 0;
+enum { LAGS_NO_ORIGIN = -1 };
+
+// The slot of the ring in which the origin at `tick` is kept; LAGS_NO_ORIGIN where there is none.
+static inline int64_t lags_slot(const Lags *lags, int64_t tick) {
+    for (size_t w = 0; w < lags->waits; w++) {
+        if (lags->wait[w] == tick) return (int64_t)w;
+    }
+    if (lags->waits > 0 || tick < 0 || tick % lags->spacing != 0) return LAGS_NO_ORIGIN;
+    return tick / lags->spacing % (int64_t)lags->slots;
 }
 
-// Does lag `k` end at `tick`, having begun at an origin?
-static inline bool lags_ends(const Lags *lags, int64_t tick, size_t k) {
-    return tick >= lags->ticks[k] && lags_is_origin(lags, tick - lags->ticks[k]);
+static inline size_t lags_rows(const Lags *lags) {
+    return (lags->waits > 0 ? lags->waits : 1) * lags->count;
 }
 
-// The ring's slot of the origin from which lag `k` ends at `tick`.
-static inline size_t lags_slot(const Lags *lags, int64_t tick, size_t k) {
-    return (size_t)((tick - lags->ticks[k]) / lags->spacing) % lags->slots;
+// The row of sums for lag `k` that began in `slot`.
+static inline size_t lags_row(const Lags *lags, int64_t slot, size_t k) {
+    return (lags->waits > 0 ? (size_t)slot * lags->count : 0) + k;
+}
+
+// The axes of the rows, waiting times if there are any and times: as many as it returns.
+// `values`: room for lags_axis_values numbers, which the axes point to.
+size_t lags_axes(const Lags *lags, const Clock *clock, double *values, ResultAxis *axes);
+static inline size_t lags_axis_values(const Lags *lags) {
+    return lags->waits + lags->count;
 }

@@ -15,7 +15,7 @@ typedef struct MsdSettings {
     LagSettings lags;
 } MsdSettings;
 
-static const Option rows[] = {LAG_OPTIONS(MsdSettings, lags)};
+static const Option rows[] = {LAG_OPTIONS(MsdSettings, lags), WAITING_OPTION(MsdSettings, lags)};
 
 typedef struct Msd {
     Observer observer;
@@ -24,7 +24,7 @@ typedef struct Msd {
     int dimension;
     size_t population[SPECIES_MOST];
     double *now;     // [dimension][particles]
-    double *squares; // [lag][species][dimension]: summed over particles and origins
+    double *squares; // [row of lags][species][dimension]: summed over particles and origins
 } Msd;
 
 static const LagSettings *lag_settings(const Settings *settings) {
@@ -40,10 +40,14 @@ static size_t frame_size(const Msd *msd) {
     return (size_t)msd->dimension * msd->particles;
 }
 
+static size_t square_count(const Msd *msd) {
+    return lags_rows(&msd->history.lags) * msd->species_count * (size_t)msd->dimension;
+}
+
 static Status allocate(Msd *msd, const Lags *lags) {
     TRY(history_make(&msd->history, lags, frame_size(msd)));
     TRY(NEW_ARRAY(msd->now, frame_size(msd)));
-    return NEW_ARRAY(msd->squares, lags->count * msd->species_count * (size_t)msd->dimension);
+    return NEW_ARRAY(msd->squares, square_count(msd));
 }
 
 static void discard(Observer *observer) {
@@ -89,8 +93,8 @@ static double sum_of_squares(const double *from, const double *to, size_t count)
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-static void add_displacements(Msd *msd, size_t lag, const double *then) {
-    double *squares = msd->squares + lag * msd->species_count * (size_t)msd->dimension;
+static void add_displacements(Msd *msd, size_t row, const double *then) {
+    double *squares = msd->squares + row * msd->species_count * (size_t)msd->dimension;
     size_t begin = 0;
     for (size_t s = 0; s < msd->species_count; s++) {
         for (int a = 0; a < msd->dimension; a++) {
@@ -109,8 +113,9 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
         for (size_t i = 0; i < msd->particles; i++) now[i] = state_unfolded(state, a, i);
     }
     for (size_t k = 0; k < msd->history.lags.count; k++) {
-        const double *then = history_begun(&msd->history, tick, k);
-        if (then) add_displacements(msd, k, then);
+        size_t row = 0;
+        const double *then = history_begun(&msd->history, tick, k, &row);
+        if (then) add_displacements(msd, row, then);
     }
     history_keep(&msd->history, tick, msd->now);
     return OK;
@@ -122,25 +127,24 @@ static void archive(Observer *observer, Archive *archive) {
     Msd *msd = (Msd *)observer;
     archive_tag(archive, MSD_TAG);
     history_archive(&msd->history, archive);
-    archive_f64(archive, msd->squares,
-                msd->history.lags.count * msd->species_count * (size_t)msd->dimension);
+    archive_f64(archive, msd->squares, square_count(msd));
 }
 
 // <dx^2> along `axis` of a species, or of all particles for species = species_count.
-static double mean_square(const Msd *msd, size_t lag, size_t species, int axis) {
+static double mean_square(const Msd *msd, size_t row, size_t species, int axis) {
     const size_t begin = species < msd->species_count ? species : 0;
     const size_t end = species < msd->species_count ? species + 1 : msd->species_count;
     double sum = 0, samples = 0;
     for (size_t s = begin; s < end; s++) {
-        sum += msd->squares[(lag * msd->species_count + s) * (size_t)msd->dimension + (size_t)axis];
-        samples += (double)msd->history.seen[lag] * (double)msd->population[s];
+        sum += msd->squares[(row * msd->species_count + s) * (size_t)msd->dimension + (size_t)axis];
+        samples += (double)msd->history.seen[row] * (double)msd->population[s];
     }
     return sum / samples; // NaN where nothing was seen
 }
 
-// values[species][direction][lag], the last direction being the sum over the others.
+// values[species][direction][row], the last direction being the sum over the others.
 static void fill(const Msd *msd, size_t species_labels, double *values) {
-    const size_t lags = msd->history.lags.count;
+    const size_t lags = lags_rows(&msd->history.lags);
     for (size_t s = 0; s < species_labels; s++) {
         for (size_t k = 0; k < lags; k++) {
             double total = 0;
@@ -158,22 +162,18 @@ static void fill(const Msd *msd, size_t species_labels, double *values) {
 static Status put(const Msd *msd, const Labels *species, double *values, double *times,
                   Results *results, size_t replica) {
     static const char *const directions[2][4] = {{"x", "y", "total"}, {"x", "y", "z", "total"}};
-    lags_times(&msd->history.lags, &msd->observer.clock, times);
     fill(msd, species->count, values);
-    const ResultSeries shape = {
+    ResultSeries shape = {
         .unit = "d^2",
         .about = "Mean squared displacement <(r(t) - r(0))^2> over particles and time origins; "
                  "finite size: the centre of mass is left to diffuse.",
-        .axes = 3,
+        .axes = 2,
         .axis = {{.name = "species", .unit = "", .count = species->count, .labels = species->names},
                  {.name = "direction",
                   .unit = "",
                   .count = (size_t)msd->dimension + 1,
-                  .labels = directions[msd->dimension - 2]},
-                 {.name = "time",
-                  .unit = msd->observer.clock.unit,
-                  .count = msd->history.lags.count,
-                  .values = times}}};
+                  .labels = directions[msd->dimension - 2]}}};
+    shape.axes += lags_axes(&msd->history.lags, &msd->observer.clock, times, shape.axis + 2);
     return observer_put_series(&msd->observer, "mean_squared_displacement", &shape, results,
                                replica, values);
 }
@@ -205,10 +205,11 @@ static Status write(const Observer *observer, const State *state, Results *resul
     const Msd *msd = (const Msd *)observer;
     Labels species;
     labels_of_species(&species, &state->system);
+    const Lags *lags = &msd->history.lags;
     double *values = NULL, *times = NULL;
     Status status =
-        NEW_ARRAY(values, species.count * ((size_t)msd->dimension + 1) * msd->history.lags.count);
-    if (status == OK) status = NEW_ARRAY(times, msd->history.lags.count);
+        NEW_ARRAY(values, species.count * ((size_t)msd->dimension + 1) * lags_rows(lags));
+    if (status == OK) status = NEW_ARRAY(times, lags_axis_values(lags));
     if (status == OK) status = put(msd, &species, values, times, results, replica);
     const bool tensors = !observer->clock.flies && strcmp(observer->clock.unit, "d^2/D0") == 0;
     if (status == OK && tensors) {

@@ -119,8 +119,9 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
     Correlation *self = (Correlation *)observer;
     copy_axes(self, state);
     for (size_t k = 0; k < self->history.lags.count; k++) {
-        const double *then = history_begun(&self->history, tick, k);
-        if (then) add_lag(self, k, then);
+        size_t row = 0;
+        const double *then = history_begun(&self->history, tick, k, &row);
+        if (then) add_lag(self, row, then);
     }
     history_keep(&self->history, tick, self->now);
     return OK;

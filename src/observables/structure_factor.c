@@ -57,7 +57,7 @@ typedef struct StructureFactor {
     size_t species_count;
     uint64_t looks;
     WaveVectors vectors;
-    SpeciesModes modes;
+    WaveModes modes;
     double *now;      // the modes
     double *products; // [pair][shells], sums of Re rho_a* rho_b over vectors and looks
 } StructureFactor;
@@ -80,7 +80,7 @@ static Status shells_make(Shell **shells, const StructureSettings *settings) {
 
 static void discard(Observer *observer) {
     StructureFactor *self = (StructureFactor *)observer;
-    species_modes_clear(&self->modes);
+    wave_modes_clear(&self->modes);
     wave_vectors_clear(&self->vectors);
     memory_free(self->now);
     memory_free(self->products);
@@ -95,7 +95,7 @@ static Status allocate(StructureFactor *self, const StructureSettings *settings,
                                             shell_count(settings), settings->vectors);
     memory_free(shells);
     TRY(status);
-    TRY(species_modes_make(&self->modes, &self->vectors, state));
+    TRY(wave_modes_make(&self->modes, &self->vectors, state));
     TRY(NEW_ARRAY(self->now, self->modes.width));
     return NEW_ARRAY(self->products, pair_count(self->species_count) * self->vectors.shells);
 }
@@ -138,8 +138,8 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
     (void)tick;
     (void)tally;
     StructureFactor *self = (StructureFactor *)observer;
-    species_modes_find(&self->modes, state, self->now);
-    species_modes_add_products(&self->modes, &self->vectors, self->now, self->now, self->products);
+    wave_modes_find(&self->modes, state, self->now);
+    wave_modes_add_products(&self->modes, &self->vectors, self->now, self->now, self->products);
     self->looks++;
     return OK;
 }

@@ -171,6 +171,31 @@ double wave_number_least(const Box *box) {
     return 2 * PI / longest;
 }
 
+OptionReals wave_numbers_chosen(const OptionReals *given, const System *system) {
+    if (given->count > 0) return *given;
+    const double distance = pow(system_number_density(system), -1.0 / (double)system->dimension);
+    return (OptionReals){.count = 1, .values = {2 * PI / distance}};
+}
+
+Status wave_numbers_check(const char *observable, const OptionReals *given, const System *system) {
+    const Box box = system_box(system);
+    const double least = wave_number_least(&box);
+    for (int64_t k = 0; k < given->count; k++) {
+        const double q = given->values[k];
+        if (!(q >= least * (1 - 1e-9))) {
+            return status_fail(BAD_DATA,
+                               "%s: a wave number of %g is below 2 pi/L = %g of the box, the "
+                               "smallest that fits; make it larger",
+                               observable, q, least);
+        }
+        if (k > 0 && !(q > given->values[k - 1])) {
+            return status_fail(BAD_DATA, "%s: wave_numbers must ascend, but %g follows %g",
+                               observable, q, given->values[k - 1]);
+        }
+    }
+    return OK;
+}
+
 Status wave_vectors_check(const char *observable, const char *option, const Box *box, double last) {
     if (walk_length(box, last) <= WALK_MOST) return OK;
     return status_fail(BAD_DATA,
@@ -179,18 +204,18 @@ Status wave_vectors_check(const char *observable, const char *option, const Box 
                        observable, option, last, walk_length(box, last), WALK_MOST);
 }
 
-Status species_modes_make(SpeciesModes *modes, const WaveVectors *vectors, const State *state) {
+Status wave_modes_make(WaveModes *modes, const WaveVectors *vectors, const State *state) {
     modes->species_count = state->system.species_count;
     modes->width = 2 * modes->species_count * vectors->count;
     return density_modes_create(&modes->density, state->box.dimension, vectors->vector,
                                 vectors->count);
 }
 
-void species_modes_clear(SpeciesModes *modes) {
+void wave_modes_clear(WaveModes *modes) {
     density_modes_free(modes->density);
 }
 
-void species_modes_find(const SpeciesModes *modes, const State *state, double *values) {
+void wave_modes_find(const WaveModes *modes, const State *state, double *values) {
     size_t counts[SPECIES_MOST], begin = 0;
     const size_t vectors = modes->density->count;
     system_counts(&state->system, counts);
@@ -212,8 +237,8 @@ static void add_products(const WaveVectors *vectors, const double *a, const doub
     }
 }
 
-void species_modes_add_products(const SpeciesModes *modes, const WaveVectors *vectors,
-                                const double *one, const double *other, double *sums) {
+void wave_modes_add_products(const WaveModes *modes, const WaveVectors *vectors, const double *one,
+                             const double *other, double *sums) {
     const size_t stride = 2 * vectors->count;
     for (size_t a = 0; a < modes->species_count; a++) {
         for (size_t b = a; b < modes->species_count; b++, sums += vectors->shells) {

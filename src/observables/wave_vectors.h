@@ -31,22 +31,37 @@ size_t wave_vectors_memory(const Box *box, double last, size_t shells, int64_t m
 
 double wave_number_least(const Box *box); // 2 pi/L of the longest edge
 
+// A list of wave numbers as the run file gives it; where it is empty, that of the mean distance of
+// particles, 2 pi rho^(1/dimension).
+OptionReals wave_numbers_chosen(const OptionReals *given, const System *system);
+
+// BAD_DATA with a sentence unless they ascend and fit into the box.
+Status wave_numbers_check(const char *observable, const OptionReals *given, const System *system);
+
+#define WAVE_NUMBER_OPTION(Type, member)                                                           \
+    {                                                                                              \
+        .name = "wave_numbers", .type = OPTION_REALS, .offset = offsetof(Type, member),            \
+        .least = 0.001, .most = 1000, .unit = "1/d",                                               \
+        .about = "Wave numbers, ascending, none below 2 pi over the longest edge of the box; "     \
+                 "empty: one, 2 pi over the mean distance of particles rho^(-1/dimension).",       \
+    }
+
 // BAD_DATA with a sentence if the lattice within |q| < last has too many vectors to go through;
 // `option` is what the run file calls `last`.
 Status wave_vectors_check(const char *observable, const char *option, const Box *box, double last);
 
 // The densities rho_a(q) of every species, modes[species][real, imaginary][vector].
-typedef struct SpeciesModes {
+typedef struct WaveModes {
     DensityModes *density;
     size_t species_count, width; // of a set of modes: 2 species_count count
-} SpeciesModes;
+} WaveModes;
 
 // Borrows the vectors.
-Status species_modes_make(SpeciesModes *modes, const WaveVectors *vectors, const State *state);
-void species_modes_clear(SpeciesModes *modes);
-void species_modes_find(const SpeciesModes *modes, const State *state, double *values);
+Status wave_modes_make(WaveModes *modes, const WaveVectors *vectors, const State *state);
+void wave_modes_clear(WaveModes *modes);
+void wave_modes_find(const WaveModes *modes, const State *state, double *values);
 
 // Adds Re rho_a*(q) rho_b(q) of every pair a <= b of species, rho_a of one set of modes and rho_b
 // of another, the mean of both ways round, to sums[pair][shell].
-void species_modes_add_products(const SpeciesModes *modes, const WaveVectors *vectors,
-                                const double *one, const double *other, double *sums);
+void wave_modes_add_products(const WaveModes *modes, const WaveVectors *vectors, const double *one,
+                             const double *other, double *sums);

@@ -10,7 +10,7 @@
 #include "state/state.h"
 #include "state/tally.h"
 
-enum { SETTINGS_SIZE = 768 };
+enum { SETTINGS_SIZE = 1536 };
 
 // Room for the settings struct of any kind; its OptionTable says what lies in it.
 typedef struct Settings {

@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { RESULT_NAME = 64, RESULT_TEXT = 256, RESULT_AXES = 4 };
+enum { RESULT_NAME = 64, RESULT_TEXT = 256, RESULT_AXES = 5 };
 
 typedef struct ResultAxis {
     const char *name; // "time", "species", "wave_number"
