@@ -83,6 +83,7 @@ static void set_sizes(Bodies *bodies, double scale) {
     const State *state = bodies->state;
     bodies->scale = scale;
     bodies->longest = 0;
+    bodies->lists.swell = (float)(bodies->lists.scale / scale * 1.00001);
     for (size_t i = 0; i < bodies->count; i++) {
         Body body = species_body(&state->system.species[state->species_of[i]]);
         body.diameter = scale * state->diameter[i];
@@ -137,13 +138,27 @@ static void discard(Chain *chain) {
     memory_free(bodies);
 }
 
+// The first that overlaps another, or the count.
+static size_t first_overlapping(Bodies *bodies) {
+    size_t i = 0;
+    while (i < bodies->count && !bodies->kernel->overlaps(bodies, i)) i++;
+    return i;
+}
+
+static Status check_start(Bodies *bodies) {
+    const size_t i = first_overlapping(bodies);
+    if (i == bodies->count) return OK;
+    return status_fail(UNHEALTHY, "particle %zu overlaps another where Monte Carlo begins", i);
+}
+
 static Status prepare(Bodies *bodies, State *state) {
     TRY(allocate(bodies, state->count));
     load(bodies);
-    set_sizes(bodies, 1);
+    set_sizes(bodies, bodies->settings.scale > 0 ? bodies->settings.scale : 1);
     TRY(check_reach(&state->box, bodies->longest));
     bodies->kernel = choose_kernel(bodies);
-    return bodies_lists_create(bodies);
+    TRY(bodies_lists_create(bodies));
+    return check_start(bodies);
 }
 
 static Status create(Chain **out, const ChainSettings *settings, State *state, RngKey key) {
@@ -179,7 +194,9 @@ static void publish(Chain *chain) {
 }
 
 static void set_amplitude(Chain *chain, size_t species, const Amplitude *amplitude) {
-    ((Bodies *)chain)->amplitude[species] = *amplitude;
+    Bodies *bodies = (Bodies *)chain;
+    bodies->amplitude[species] = *amplitude;
+    if (!bodies_skin_suits(bodies)) bodies->stale = true;
 }
 
 // Moves
@@ -204,12 +221,13 @@ static Status run(Chain *chain, int64_t trials, Tally *tally) {
     int64_t *step = &bodies->state->step;
     const int64_t end = *step + trials;
     while (*step < end) {
+        if (bodies->stale)
+            TRY(bodies_lists_build(bodies, fmax(bodies->lists.scale, bodies->scale)));
         const int64_t block = *step / TRIALS, from = *step % TRIALS;
         const int64_t to = end - block * TRIALS < TRIALS ? end - block * TRIALS : TRIALS;
         draw_block(bodies, block);
         *step += (int64_t)bodies->kernel->try_moves(bodies, bodies->draws, (size_t)from, (size_t)to,
                                                     tally);
-        if (bodies->outgrown) TRY(bodies_lists_build(bodies, bodies->lists.scale));
     }
     return OK;
 }
@@ -221,26 +239,22 @@ static bool has_room(const Bodies *bodies) {
     return 2 * bodies->longest < fmin(fmin(edge[0], edge[1]), edge[2]);
 }
 
-static bool any_overlaps(Bodies *bodies) {
-    for (size_t i = 0; i < bodies->count; i++) {
-        if (bodies->kernel->overlaps(bodies, i)) return true;
-    }
-    return false;
-}
-
 // Lists are made for bodies somewhat larger than asked for, so that slow growth needs new ones
 // rarely.
 static bool rescale(Chain *chain, double scale) {
     Bodies *bodies = (Bodies *)chain;
     const double before = bodies->scale;
     set_sizes(bodies, scale);
+    BodyLists *lists = &bodies->lists;
     bool fits = has_room(bodies);
-    if (fits && (scale > bodies->lists.scale || scale < bodies->lists.scale / AHEAD / AHEAD)) {
+    if (fits && (bodies->stale || scale > lists->scale || scale < lists->scale / AHEAD / AHEAD)) {
         fits = bodies_lists_build(bodies, AHEAD * scale) == OK;
     }
-    fits = fits && !any_overlaps(bodies);
-    if (!fits) set_sizes(bodies, before);
-    return fits;
+    fits = fits && first_overlapping(bodies) == bodies->count;
+    if (fits) return true;
+    set_sizes(bodies, before);
+    bodies->stale |= before > lists->scale;
+    return false;
 }
 
 static size_t memory(const System *system) {

@@ -8,10 +8,12 @@
 // Every body has a list of those that it may touch, made when it was last "anchored". A body's core
 // is what its skin is laid around: the segment of a spherocylinder, the disc of a platelet, the
 // centre of a sphere. Where no point of a body's core is farther than `rest` from where it was in
-// the anchored pose, and none of a trial's farther than `skin - rest`, two bodies can only touch if
-// their anchored cores are nearer than contact + skin: those are on each other's lists. Strays are
-// anchored anew, one at a time. Rotation counts by how far it moves the rim, so that a rod's list
-// has the ten that it may touch, not the hundred whose centres are near.
+// the anchored pose, and none of a trial's farther than `leash`, two bodies can only touch if their
+// anchored cores are nearer than contact + skin, skin = rest + leash: those are on each other's
+// lists. Rotation counts by how far it moves the rim, so that a rod's list has the ten that it may
+// touch, not the hundred whose centres are near. A body that comes to lie beyond its rest is
+// anchored anew; a trial beyond the leash is judged by all whose anchored centres are near, found
+// in cells, and so are all trials where no list pays or fits into the box (skin 0).
 //
 // Lists, cells and single precision decide only who is looked at: what comes out depends on poses
 // alone.
@@ -50,9 +52,11 @@ typedef struct BodyCells {
 } BodyCells;
 
 typedef struct BodyLists {
-    double skin, rest;   // in d; infinite where everybody is on every list
-    double leash;        // of a trial: skin - rest
+    double length;       // typical, of the trials that they are made for, in d
     double scale;        // of the sizes that they serve, or smaller ones
+    float swell;         // that scale against the one now, and a margin
+    float skin, rest;    // in d; 0: no lists, all are looked for in cells
+    float leash;         // of a trial: skin - rest; below 0: no lists
     size_t room;         // ids that fit on each list
     uint32_t *held;      // [count]
     uint32_t *near;      // [count][room]
@@ -68,7 +72,7 @@ typedef struct Bodies Bodies;
 typedef struct BodiesKernel {
     void (*draw)(Draws *draws, const ChainSettings *settings, size_t count, const uint32_t *words,
                  double *const normals[3]);
-    // Trials `from` to `to` of the block; returns how many were made: fewer if lists were outgrown.
+    // Trials `from` to `to` of the block; returns how many were made: fewer if lists are stale.
     size_t (*try_moves)(Bodies *bodies, const Draws *draws, size_t from, size_t to, Tally *tally);
     void (*anchor)(Bodies *bodies, size_t i); // where it is, and lists it anew
     bool (*overlaps)(Bodies *bodies, size_t i);
@@ -91,7 +95,7 @@ struct Bodies {
     BodyRow *row;   // [count]
     double longest; // reach of any
     BodyLists lists;
-    bool outgrown; // a list or a cell was too short: lists are void until there is more room
+    bool stale; // lists do not serve: one is too short, or they are for other steps
     Draws *draws;
     int64_t drawn; // block; -1: none
 };
@@ -121,6 +125,11 @@ static inline bool bodies_pair_overlaps(const Bodies *bodies, size_t i, const Po
 
 Status bodies_lists_create(Bodies *bodies);
 void bodies_lists_free(Bodies *bodies);
+// Widths of the lists for the amplitudes in force, and whether they suit them still
+// (bodies_skin.c).
+void bodies_choose_skin(Bodies *bodies, double scale);
+bool bodies_skin_suits(const Bodies *bodies);
+
 // Anchors all bodies where they are, with more room as long as lists are outgrown. `scale` as in
 // BodyLists.
 Status bodies_lists_build(Bodies *bodies, double scale);

@@ -135,15 +135,14 @@ KERNEL unsigned lanes_up_to(size_t count) {
     return count >= WIDTH ? (1u << (WIDTH - 1) << 1) - 1 : (1u << count) - 1;
 }
 
-KERNEL bool overlaps_on_list(const int flat, const int mixed, const Bodies *bodies, size_t i,
-                             const Pose *pose, const Tried *tried) {
-    const BodyLists *lists = &bodies->lists;
-    const uint32_t *ids = lists->near + i * lists->room;
-    const size_t held = lists->held[i];
-    for (size_t k = 0; k < held; k += WIDTH) {
+// Looks at `count` bodies by their numbers; room to read whole vectors of them is needed.
+KERNEL bool overlaps_any_of(const int flat, const int mixed, const Bodies *bodies, size_t i,
+                            const Pose *pose, const Tried *tried, const uint32_t *ids,
+                            size_t count) {
+    for (size_t k = 0; k < count; k += WIDTH) {
         const Rows rows = rows_load(bodies->row, ids + k);
         const Verdict found = verdict(flat, mixed, tried, &rows);
-        const unsigned valid = lanes_up_to(held - k);
+        const unsigned valid = lanes_up_to(count - k);
         if (found.surely & valid) return true;
         if (one_overlaps(bodies, i, pose, ids + k, found.perhaps & valid)) return true;
     }
@@ -227,16 +226,19 @@ KERNEL bool enter_cell(BodyCells *cells, size_t i, const int32_t place[3]) {
     return true;
 }
 
-// Adds the bodies of a cell whose centres are near to the candidates.
-KERNEL size_t search_cell(BodyLists *lists, size_t cell, const Tried *tried, float reach2,
-                          size_t found) {
+// Adds the bodies of a cell whose anchored centres are near to the candidates.
+KERNEL size_t search_cell(const BodyLists *lists, size_t cell, size_t i, const Tried *tried,
+                          float reach2, size_t found) {
     const BodyCells *cells = &lists->cells;
     const size_t first = cell * cells->room, held = cells->held[cell];
+    const Ints itself = (Ints){0} + (int32_t)i;
     for (size_t k = 0; k < held; k += WIDTH) {
         Ints place[3];
         for (int a = 0; a < 3; a++) place[a] = ints_load(cells->place[a] + first + k);
         const Separation apart = separation(tried, place);
-        const unsigned bits = floats_below(apart.r2, floats_all(reach2)) & lanes_up_to(held - k);
+        const unsigned others = ~ints_equal(ints_load(cells->id + first + k), itself);
+        const unsigned bits =
+            floats_below(apart.r2, floats_all(reach2)) & others & lanes_up_to(held - k);
         ids_pack(lists->candidate + found, bits, cells->id + first + k);
         found += (unsigned)__builtin_popcount(bits);
     }
@@ -244,10 +246,10 @@ KERNEL size_t search_cell(BodyLists *lists, size_t cell, const Tried *tried, flo
 }
 
 // The home cell and its neighbours; along an axis of one cell there are none.
-KERNEL size_t search_cells(Bodies *bodies, const Tried *tried, float reach2) {
-    const BodyCells *cells = &bodies->lists.cells;
+KERNEL size_t search_cells(const BodyLists *lists, size_t i, const Tried *tried, float reach2) {
+    const BodyCells *cells = &lists->cells;
     size_t found = 0;
-    if (cells->total == 1) return search_cell(&bodies->lists, 0, tried, reach2, 0);
+    if (cells->total == 1) return search_cell(lists, 0, i, tried, reach2, 0);
     uint32_t home[3];
     int side[3];
     for (int a = 0; a < 3; a++) {
@@ -263,7 +265,7 @@ KERNEL size_t search_cells(Bodies *bodies, const Tried *tried, float reach2) {
                     const uint32_t number = cells->number[a];
                     cell = cell * number + (home[a] + number + (uint32_t)step[a]) % number;
                 }
-                found = search_cell(&bodies->lists, cell, tried, reach2, found);
+                found = search_cell(lists, cell, i, tried, reach2, found);
             }
         }
     }
@@ -281,14 +283,13 @@ KERNEL bool list_holds(const uint32_t *ids, size_t held, uint32_t id) {
 KERNEL void list_add(Bodies *bodies, size_t i, uint32_t id) {
     BodyLists *lists = &bodies->lists;
     if (lists->held[i] == lists->room)
-        bodies->outgrown = true;
+        bodies->stale = true;
     else
         lists->near[i * lists->room + lists->held[i]++] = id;
 }
 
 KERNEL void list_both_ways(Bodies *bodies, size_t i, uint32_t id) {
     BodyLists *lists = &bodies->lists;
-    if (id == i) return;
     list_add(bodies, i, id);
     if (list_holds(lists->near + id * lists->room, lists->held[id], (uint32_t)i)) return;
     list_add(bodies, id, (uint32_t)i);
@@ -298,22 +299,22 @@ KERNEL void anchor(const int flat, Bodies *bodies, size_t i) {
     BodyLists *lists = &bodies->lists;
     const BodyRow row = bodies->row[i];
     const Tried tried = tried_row(bodies, row);
-    const float swell = (float)(lists->scale / bodies->scale) * 1.00001f;
+    const float swell = lists->swell;
     const float skin = (float)lists->skin * 1.00001f;
     const float reach = swell * (float)bodies->longest + skin;
     lists->anchor[i] = row;
     lists->held[i] = 0;
     leave_cell(&lists->cells, i);
     if (!enter_cell(&lists->cells, i, row.place)) {
-        bodies->outgrown = true;
+        bodies->stale = true;
         return;
     }
-    const size_t found = search_cells(bodies, &tried, reach * reach * 1.00001f);
+    if (!(skin > 0)) return;
+    const size_t found = search_cells(lists, i, &tried, reach * reach * 1.00001f);
     for (size_t k = 0; k < found; k += WIDTH) {
         const uint32_t *ids = lists->candidate + k;
         const Rows rows = rows_load(lists->anchor, ids);
         unsigned bits = near_lanes(flat, &tried, &rows, swell, skin);
-        if (!isfinite(skin)) bits = ~0u;
         for (bits &= lanes_up_to(found - k); bits; bits &= bits - 1) {
             list_both_ways(bodies, i, ids[__builtin_ctz(bits)]);
         }
@@ -322,7 +323,7 @@ KERNEL void anchor(const int flat, Bodies *bodies, size_t i) {
 
 // Square of at most how far any point of the core is from where it was anchored: the centre's
 // displacement and the rim's add up.
-KERNEL float strayed(const int flat, const Tried *tried, const BodyRow *from) {
+KERNEL float strayed(const int flat, const Tried *tried, const BodyRow *from, float swell) {
     const BodyRow *to = &tried->row;
     float place2 = 0, turn2 = 0;
     for (int a = 0; a < 3; a++) {
@@ -333,44 +334,28 @@ KERNEL float strayed(const int flat, const Tried *tried, const BodyRow *from) {
         turn2 += y * y;
     }
     const float rim = flat ? to->radius * to->core : to->core;
-    return __builtin_sqrtf(place2) + rim * __builtin_sqrtf(turn2);
+    return __builtin_sqrtf(place2) + swell * rim * __builtin_sqrtf(turn2);
 }
 
 // Trials
 
-KERNEL bool overlaps_anything(const Bodies *bodies, size_t i, const Pose *pose) {
-    for (size_t j = 0; j < bodies->count; j++) {
-        if (j != i && bodies_pair_overlaps(bodies, i, pose, j)) return true;
-    }
-    return false;
-}
-
-// No core strays from its anchor by more than the skin.
-KERNEL bool overlaps_in_cells(Bodies *bodies, size_t i, const Pose *pose, const Tried *tried) {
+// All whose anchored centres are near enough: resting bodies have not strayed far from theirs.
+KERNEL bool overlaps_nearby(const int flat, const int mixed, const Bodies *bodies, size_t i,
+                            const Pose *pose, const Tried *tried) {
     const BodyLists *lists = &bodies->lists;
-    const double swell = lists->scale / bodies->scale;
-    const float reach = (float)(swell * bodies->longest + lists->skin) * 1.00001f;
-    const size_t found = search_cells(bodies, tried, reach * reach * 1.00001f);
-    for (size_t k = 0; k < found; k++) {
-        const uint32_t j = lists->candidate[k];
-        if (j != i && bodies_pair_overlaps(bodies, i, pose, j)) return true;
-    }
-    return false;
+    const float reach = 1.0001f * (float)(bodies->longest + lists->rest);
+    const size_t found = search_cells(lists, i, tried, reach * reach);
+    return overlaps_any_of(flat, mixed, bodies, i, pose, tried, lists->candidate, found);
 }
 
-// Anchors a body anew before a trial that would leave what its list covers; a step that no list
-// covers is judged by the cells around its end.
-KERNEL bool trial_overlaps(const int flat, const int mixed, Bodies *bodies, size_t i,
+// Beyond its leash a body may meet others than those on its list.
+KERNEL bool trial_overlaps(const int flat, const int mixed, const Bodies *bodies, size_t i,
                            const Pose *pose, const Tried *tried, float *way) {
     const BodyLists *lists = &bodies->lists;
-    const float leash = (float)lists->leash;
-    *way = strayed(flat, tried, &lists->anchor[i]);
-    if (*way <= leash) return overlaps_on_list(flat, mixed, bodies, i, pose, tried);
-    anchor(flat, bodies, i);
-    *way = strayed(flat, tried, &lists->anchor[i]);
-    if (bodies->outgrown) return overlaps_anything(bodies, i, pose);
-    if (*way > leash) return overlaps_in_cells(bodies, i, pose, tried);
-    return overlaps_on_list(flat, mixed, bodies, i, pose, tried);
+    *way = strayed(flat, tried, &lists->anchor[i], lists->swell);
+    if (*way > lists->leash) return overlaps_nearby(flat, mixed, bodies, i, pose, tried);
+    return overlaps_any_of(flat, mixed, bodies, i, pose, tried, lists->near + i * lists->room,
+                           lists->held[i]);
 }
 
 KERNEL void try_move(const int flat, const int mixed, Bodies *bodies, const Draws *draws, size_t k,
@@ -396,13 +381,13 @@ KERNEL void try_move(const int flat, const int mixed, Bodies *bodies, const Draw
     bodies_count_accepted(moves, &proposal, now->axis);
     *now = then;
     bodies->row[i] = tried.row;
-    if (way > (float)bodies->lists.rest && !bodies->outgrown) anchor(flat, bodies, i);
+    if (way > bodies->lists.rest) anchor(flat, bodies, i);
 }
 
 KERNEL size_t try_moves(const int flat, const int mixed, Bodies *bodies, const Draws *draws,
                         size_t from, size_t to, Tally *tally) {
     size_t k = from;
-    while (k < to && !bodies->outgrown) try_move(flat, mixed, bodies, draws, k++, tally);
+    while (k < to && !bodies->stale) try_move(flat, mixed, bodies, draws, k++, tally);
     return k - from;
 }
 
@@ -422,7 +407,8 @@ static void draw(Draws *draws, const ChainSettings *settings, size_t count, cons
     }                                                                                              \
     static bool overlaps_##name(Bodies *bodies, size_t i) {                                        \
         const Tried tried = tried_row(bodies, bodies->row[i]);                                     \
-        return overlaps_on_list(flat, mixed, bodies, i, &bodies->pose[i], &tried);                 \
+        float way;                                                                                 \
+        return trial_overlaps(flat, mixed, bodies, i, &bodies->pose[i], &tried, &way);             \
     }
 INSTANCE(rods, 0, 0)
 INSTANCE(rods_and_balls, 0, 1)

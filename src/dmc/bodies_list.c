@@ -7,31 +7,10 @@
 #include <math.h>
 #include <string.h>
 
-static const double SKIN = 0.8;        // in diameters
-static const double REST = 0.6;        // of the skin
-static const double SKIN_LEAST = 0.05; // in diameters: below, everybody is on every list
 enum { ROOM_AT_FIRST = 32, CELL_ROOM_AT_FIRST = 32 };
 
 static size_t whole_blocks(size_t count) {
     return (count + LIST_BLOCK - 1) / LIST_BLOCK * LIST_BLOCK;
-}
-
-static void choose_skin(Bodies *bodies, double scale) {
-    BodyLists *lists = &bodies->lists;
-    const double grown = scale / bodies->scale;
-    double width = INFINITY, diameter = 0;
-    for (int a = 0; a < 3; a++) width = fmin(width, bodies->state->box.edge[a]);
-    for (size_t i = 0; i < bodies->count; i++) {
-        diameter += grown * bodies->body[i].diameter / (double)bodies->count;
-    }
-    const double free = 0.499 * width - grown * bodies->longest;
-    lists->scale = scale;
-    lists->skin = fmin(SKIN * diameter, free);
-    lists->rest = REST * lists->skin;
-    lists->leash = lists->skin - lists->rest;
-    if (lists->skin < SKIN_LEAST * diameter) {
-        lists->skin = lists->rest = lists->leash = INFINITY;
-    }
 }
 
 static void choose_cells(Bodies *bodies) {
@@ -94,11 +73,11 @@ void bodies_lists_free(Bodies *bodies) {
 
 static void fill(Bodies *bodies) {
     BodyLists *lists = &bodies->lists;
-    bodies->outgrown = false;
+    bodies->stale = false;
     memset(lists->held, 0, bodies->count * sizeof *lists->held);
     memset(lists->cells.held, 0, lists->cells.total * sizeof *lists->cells.held);
     for (size_t i = 0; i < bodies->count; i++) lists->cells.cell[i] = UINT32_MAX;
-    for (size_t i = 0; i < bodies->count && !bodies->outgrown; i++) {
+    for (size_t i = 0; i < bodies->count && !bodies->stale; i++) {
         bodies->kernel->anchor(bodies, i);
     }
 }
@@ -106,16 +85,15 @@ static void fill(Bodies *bodies) {
 Status bodies_lists_build(Bodies *bodies, double scale) {
     BodyLists *lists = &bodies->lists;
     const size_t room = lists->room, cell_room = lists->cells.room, total = lists->cells.total;
-    bodies->outgrown = true; // void until they are filled
-    choose_skin(bodies, scale);
+    bodies->stale = true; // void until they are filled
+    bodies_choose_skin(bodies, scale);
     choose_cells(bodies);
-    if (!isfinite(lists->skin)) lists->room = whole_blocks(bodies->count);
     if (!lists->near || room != lists->room || cell_room != lists->cells.room ||
         total != lists->cells.total) {
         TRY(make_room(bodies));
     }
     fill(bodies);
-    while (bodies->outgrown) {
+    while (bodies->stale) {
         lists->room *= 2;
         lists->cells.room *= 2;
         TRY(make_room(bodies));

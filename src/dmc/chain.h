@@ -22,6 +22,7 @@ typedef struct ChainSettings {
     RotationRule rotation;
     int gaussian; // 1: normal displacements, of the variance that uniform ones would have;
                   // rotations are then ROTATION_TANGENT with normal Y
+    double scale; // of bodies at first, as by chain_rescale; 0: as they are
 } ChainSettings;
 
 // Half-widths of the uniform distributions of one species: of the displacement along the body axis
@@ -56,7 +57,8 @@ struct Chain {
 // BAD_DATA with a sentence if no chain can move this system.
 Status chain_check(const System *system);
 
-// Borrows the state until free. Amplitudes are 0 at first.
+// Borrows the state until free; UNHEALTHY if bodies overlap (balls: when they first run).
+// Amplitudes are 0 at first.
 Status chain_create(Chain **out, const ChainSettings *settings, State *state, RngKey key);
 void chain_free(Chain *chain);
 void chain_set_amplitude(Chain *chain, size_t species, const Amplitude *amplitude);

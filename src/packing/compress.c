@@ -112,9 +112,6 @@ static Status fail_jammed(const Compression *compression) {
 }
 
 static Status squeeze(Compression *compression) {
-    if (!chain_rescale(compression->chain, compression->scale)) {
-        return status_fail(UNHEALTHY, "bodies overlap where compression begins");
-    }
     while (compression->cycles < MELT_CYCLES) TRY(run_cycle(compression));
     while (compression->scale < 1 + COMPRESS_MARGIN) {
         if (compression->cycles == CYCLES_MOST) return fail_jammed(compression);
@@ -127,7 +124,8 @@ static Status squeeze(Compression *compression) {
 
 Status compress_bodies(State *state, RngKey key, double scale, const atomic_int *stop,
                        PackingReport *report) {
-    const ChainSettings settings = {.stream = STREAM_SQUEEZING, .rotation = ROTATION_TANGENT};
+    const ChainSettings settings = {
+        .stream = STREAM_SQUEEZING, .rotation = ROTATION_TANGENT, .scale = scale};
     Compression compression = {.state = state, .stop = stop, .scale = scale, .growth = GROWTH};
     turn_axes(state, key);
     TRY(chain_create(&compression.chain, &settings, state, key));

@@ -95,11 +95,11 @@ static double acceptance(const Tally *tally, const System *system) {
 
 State *bodies_grown(const System *system, RngKey key) {
     State *state = bodies_state(system, key, 0.35);
-    const ChainSettings settings = {.stream = STREAM_SQUEEZING, .rotation = ROTATION_MIXED};
+    double scale = 0.35, growth = 0.02, step = 0.2;
+    const ChainSettings settings = {
+        .stream = STREAM_SQUEEZING, .rotation = ROTATION_MIXED, .scale = scale};
     Chain *chain = NULL;
     ASSERT(chain_create(&chain, &settings, state, key) == OK);
-    double scale = 0.35, growth = 0.02, step = 0.2;
-    ASSERT(chain_rescale(chain, scale));
     while (scale < 1) {
         Tally tally = {0};
         set_steps(chain, system, step);
