@@ -111,9 +111,42 @@ static Status print_plan(const Plan *plan) {
     return OK;
 }
 
-static Status print_written(const Plan *plan) {
+// A line per point, and the time of all.
+static Status print_sweep(const ConfigPoints *points) {
+    const size_t count = config_point_count(points);
+    const double processors = (double)sysconf(_SC_NPROCESSORS_ONLN);
+    double sum = 0;
+    printf("\nsweep     %zu points, of which the above is the first\n", count);
+    for (size_t p = 0; p < count; p++) {
+        Plan *plan = NULL;
+        TRY(config_point_plan(&plan, points, p));
+        const double seconds = plan_seconds(plan) * (double)plan->ensemble.replicas;
+        char name[POINT_NAME_SIZE];
+        config_point_name(points, p, name);
+        printf("          %-40s about ", name);
+        print_seconds(seconds);
+        printf(" of CPU time\n");
+        sum += seconds;
+        memory_free(plan);
+    }
+    printf("          about ");
+    print_seconds(sum / processors);
+    printf(" for all on %.0f cores, without packing\n", processors);
+    return OK;
+}
+
+static Status print_points(const ConfigPoints *points) {
+    Plan *plan = NULL;
+    TRY(config_point_plan(&plan, points, 0));
+    Status status = print_plan(plan);
+    memory_free(plan);
+    if (status == OK && config_sweep_keys(points) > 0) status = print_sweep(points);
+    return status;
+}
+
+static Status print_written(const ConfigPoints *points) {
     char *text = NULL;
-    TRY(config_write(plan, &text));
+    TRY(config_write_points(points, &text));
     fputs(text, stdout);
     memory_free(text);
     return OK;
@@ -126,14 +159,11 @@ static Status check(const Arguments *arguments) {
         if (strcmp(arguments->flag[i].flag, "set") == 0)
             settings[overrides.count++] = arguments->flag[i].value;
     }
-    Plan *plan = NULL;
-    TRY(config_read(&plan, arguments->operand[0], &overrides));
-    Status status = OK;
-    if (argument_given(arguments, "all"))
-        status = print_written(plan);
-    else
-        status = print_plan(plan);
-    memory_free(plan);
+    ConfigPoints *points = NULL;
+    TRY(config_read_points(&points, arguments->operand[0], &overrides));
+    const Status status =
+        argument_given(arguments, "all") ? print_written(points) : print_points(points);
+    config_free_points(points);
     return status;
 }
 

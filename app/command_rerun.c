@@ -19,10 +19,10 @@ static Status run_again(const Arguments *arguments, const Results *results) {
     SessionWishes wishes = {.directory = argument_value(arguments, "output")};
     if (!wishes.directory) wishes.directory = "rerun";
     TRY(runner_threads(argument_value(arguments, "threads"), &wishes.threads));
-    Plan *plan = NULL;
-    TRY(config_read_text(&plan, arguments->operand[0], text, strlen(text), NULL));
-    const Status status = runner_run(plan, &wishes, argument_given(arguments, "quiet"));
-    memory_free(plan);
+    ConfigPoints *points = NULL;
+    TRY(config_read_points_text(&points, arguments->operand[0], text, strlen(text)));
+    const Status status = runner_run(points, &wishes, argument_given(arguments, "quiet"));
+    config_free_points(points);
     return status;
 }
 

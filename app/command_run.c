@@ -42,10 +42,10 @@ static Status run_file(const Arguments *arguments) {
         TRY(stem(directory, arguments->operand[0]));
         wishes.directory = directory;
     }
-    Plan *plan = NULL;
-    TRY(config_read(&plan, arguments->operand[0], &overrides));
-    const Status status = runner_run(plan, &wishes, argument_given(arguments, "quiet"));
-    memory_free(plan);
+    ConfigPoints *points = NULL;
+    TRY(config_read_points(&points, arguments->operand[0], &overrides));
+    const Status status = runner_run(points, &wishes, argument_given(arguments, "quiet"));
+    config_free_points(points);
     return status;
 }
 

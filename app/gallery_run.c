@@ -37,11 +37,11 @@ static Status run_plan(const GalleryRun *run, const char *point, char *settings_
     TRY(gallery_path(file, run->entry, "run.yaml"));
     TRY(gallery_path(directory, run->directory, point));
     TRY(split_settings(settings_text, settings, &overrides.count));
-    Plan *plan = NULL;
-    TRY(config_read(&plan, file, &overrides));
+    ConfigPoints *points = NULL;
+    TRY(config_read_points(&points, file, &overrides));
     const SessionWishes wishes = {.directory = directory, .threads = run->threads};
-    const Status status = runner_run(plan, &wishes, true);
-    memory_free(plan);
+    const Status status = runner_run(points, &wishes, true);
+    config_free_points(points);
     return status;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs a plan in a directory: progress line, signals, summary. Talk goes to standard error.
+// Runs a run file in a directory: progress line, signals, summary. Talk goes to standard error.
 #include "runner.h"
 
 #include "signals.h"
@@ -55,19 +55,19 @@ static void wait_a_little(void) {
     nanosleep(&pause, NULL); // a signal ends it early, which is welcome
 }
 
-static void watch(Session *session, bool quiet) {
+static void watch(Campaign *campaign, bool quiet) {
     const bool terminal = isatty(STDERR_FILENO);
     const double period = terminal ? TERMINAL_SECONDS : PIPE_SECONDS;
     double last = 0;
     bool stopping = false;
-    while (session_running(session)) {
+    while (campaign_tend(campaign)) {
         wait_a_little();
         if (signals_want_stop() && !stopping) {
             stopping = true;
-            session_stop(session);
+            campaign_stop(campaign);
         }
-        if (signals_want_checkpoint()) session_request_checkpoint(session);
-        const EnsembleProgress progress = session_progress(session);
+        if (signals_want_checkpoint()) campaign_request_checkpoint(campaign);
+        const EnsembleProgress progress = campaign_progress(campaign);
         if (quiet || progress.seconds - last < period) continue;
         last = progress.seconds;
         print_progress(&progress, terminal);
@@ -78,7 +78,8 @@ static void watch(Session *session, bool quiet) {
 static void print_end(const Results *results, const char *directory) {
     const char *speed = results_find_fact(results, "ns_per_particle_tick");
     const char *seconds = results_find_fact(results, "wall_seconds");
-    fprintf(stderr, "done in %s s (%s ns per particle step)\n", seconds, speed);
+    fprintf(stderr, "done in %s s", seconds);
+    fprintf(stderr, speed ? " (%s ns per particle step)\n" : "\n", speed);
     for (size_t i = 0; i < results->health_count; i++) {
         const ResultCounter *counter = &results->health[i];
         if (isnan(counter->limit)) continue;
@@ -88,14 +89,14 @@ static void print_end(const Results *results, const char *directory) {
     fprintf(stderr, "numbers: perrin show %s\nreport:  %s/report.html\n", directory, directory);
 }
 
-static Status watch_and_finish(Session *session, const SessionWishes *wishes, bool quiet) {
-    if (session_resumes(session) && !quiet) {
+static Status watch_and_finish(Campaign *campaign, const SessionWishes *wishes, bool quiet) {
+    if (campaign_resumes(campaign) && !quiet) {
         fprintf(stderr, "resuming in %s\n", wishes->directory);
     }
-    watch(session, quiet);
+    watch(campaign, quiet);
     Results *results = NULL;
     const char *note = NULL;
-    const Status status = session_finish(session, &results, &note);
+    const Status status = campaign_finish(campaign, &results, &note);
     if (status == INTERRUPTED) {
         return status_fail(INTERRUPTED,
                            "interrupted; all is in checkpoints: the same command resumes in %s",
@@ -107,12 +108,12 @@ static Status watch_and_finish(Session *session, const SessionWishes *wishes, bo
     return status;
 }
 
-Status runner_run(const Plan *plan, const SessionWishes *wishes, bool quiet) {
-    Session *session = NULL;
+Status runner_run(const ConfigPoints *points, const SessionWishes *wishes, bool quiet) {
+    Campaign *campaign = NULL;
     signals_catch();
-    TRY(session_open(&session, plan, wishes));
-    const Status status = watch_and_finish(session, wishes, quiet);
-    session_close(session);
+    TRY(campaign_open(&campaign, points, wishes));
+    const Status status = watch_and_finish(campaign, wishes, quiet);
+    campaign_close(campaign);
     return status;
 }
 

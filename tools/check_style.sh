@@ -63,7 +63,7 @@ long_functions() {
 american() {
     sources 'src/*.[ch]' 'app/*.[ch]' 'include/*.h' '*.def' '*.md' | tr '\n' '\0' |
         xargs -0 grep -niowE '[a-z_]*(neighbor|behavior|normaliz|initializ|optimiz|vectoriz|color_)[a-z_]*' |
-        grep -v ':yaml_' | sed 's/:\([0-9]*\):\(.*\)/:\1: American spelling: \2/'
+        grep -v -e ':yaml_' -e ':PTHREAD_' | sed 's/:\([0-9]*\):\(.*\)/:\1: American spelling: \2/'
 }
 
 { layout; first_lines; left_for_later; long_functions; american; } >"$found" || true

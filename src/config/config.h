@@ -12,6 +12,7 @@
 typedef struct ConfigOverrides {
     size_t count;
     const char *const *settings;
+    size_t point; // of the file's sweep, counted from 1; 0: a file with a sweep is refused
 } ConfigOverrides;
 
 // A Plan with every default filled and every check passed, and small enough for the memory of this
@@ -23,6 +24,40 @@ Status config_read(Plan **out, const char *path, const ConfigOverrides *override
 // need not fit this machine.
 Status config_read_text(Plan **out, const char *name, const char *text, size_t length,
                         const ConfigOverrides *overrides);
+
+// A key of `sweep:` and the words that it takes.
+typedef struct SweepKey {
+    char path[OPTION_TEXT_SIZE]; // "system.packing_fraction"
+    const char *name;            // its last word, or the whole where two keys end alike
+    bool numbers;                // all words are numbers
+    size_t count;
+    char (*words)[OPTION_TEXT_SIZE];
+} SweepKey;
+
+enum { SWEEP_KEYS_MOST = 3, POINT_NAME_SIZE = 200 };
+
+// The points of a run file: every combination of the values of its `sweep:`, the last key fastest;
+// a single one, without a name, where it sweeps nothing.
+typedef struct ConfigPoints ConfigPoints;
+
+// Every point's plan has been read and checked as by config_read. The overrides are borrowed.
+Status config_read_points(ConfigPoints **out, const char *path, const ConfigOverrides *overrides);
+Status config_read_points_text(ConfigPoints **out, const char *name, const char *text,
+                               size_t length);
+void config_free_points(ConfigPoints *points);
+
+size_t config_point_count(const ConfigPoints *points);
+size_t config_sweep_keys(const ConfigPoints *points); // 0: it sweeps nothing
+const SweepKey *config_sweep_key(const ConfigPoints *points, size_t key);
+
+// The place of a point among the words of each key.
+void config_point_indices(const ConfigPoints *points, size_t point, size_t index[SWEEP_KEYS_MOST]);
+// "packing_fraction=0.7_step=0.05", fit for a folder.
+void config_point_name(const ConfigPoints *points, size_t point, char name[POINT_NAME_SIZE]);
+Status config_point_plan(Plan **out, const ConfigPoints *points, size_t point);
+
+// A run file of all points: that of the first, and the sweep.
+Status config_write_points(const ConfigPoints *points, char **text);
 
 // A run file with every value written out, commented with units. Reading it gives an equal Plan.
 // The text is the caller's to memory_free.

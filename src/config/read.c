@@ -7,6 +7,7 @@
 #include "base/nearest.h"
 #include "config/judge.h"
 #include "config/options.h"
+#include "config/points.h"
 #include "config/sections.h"
 #include "config/tree.h"
 
@@ -254,11 +255,12 @@ static Status read_tree(Node *root, const ConfigOverrides *overrides, bool must_
     for (size_t i = 0; overrides && i < overrides->count; i++) {
         TRY(tree_set(root, overrides->settings[i]));
     }
+    TRY(sweep_choose(root, overrides ? overrides->point : 0));
     TRY(read_plan(root, plan));
     return must_fit ? judge_memory(root, plan) : OK;
 }
 
-static Status read_text(Plan **out, const char *name, const char *text, size_t length,
+Status config_read_plan(Plan **out, const char *name, const char *text, size_t length,
                         const ConfigOverrides *overrides, bool must_fit) {
     Node *root = NULL;
     *out = NULL;
@@ -274,7 +276,7 @@ static Status read_text(Plan **out, const char *name, const char *text, size_t l
 
 Status config_read_text(Plan **out, const char *name, const char *text, size_t length,
                         const ConfigOverrides *overrides) {
-    return read_text(out, name, text, length, overrides, false);
+    return config_read_plan(out, name, text, length, overrides, false);
 }
 
 Status config_read(Plan **out, const char *path, const ConfigOverrides *overrides) {
@@ -282,7 +284,7 @@ Status config_read(Plan **out, const char *path, const ConfigOverrides *override
     size_t length = 0;
     *out = NULL;
     TRY(tree_read_file(path, &text, &length));
-    const Status status = read_text(out, path, text, length, overrides, true);
+    const Status status = config_read_plan(out, path, text, length, overrides, true);
     memory_free(text);
     return status;
 }

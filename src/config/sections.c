@@ -19,8 +19,22 @@ static const Option method_rows[] = {
 };
 const OptionTable section_method_options = {method_rows, 1, OPTION_TEXT_SIZE};
 
+static const char *const spacings[] = {"linear", "logarithmic", NULL};
+static const Option range_rows[] = {
+    {"first", OPTION_REAL, offsetof(SweepRange, first), 0, 0, 0, "", "The first value.",
+     .required = 1},
+    {"last", OPTION_REAL, offsetof(SweepRange, last), 0, 0, 0, "", "The last value.",
+     .required = 1},
+    {"count", OPTION_INTEGER, offsetof(SweepRange, count), 0, 2, 10000, "", "How many values.",
+     .required = 1},
+    {"spacing", OPTION_CHOICE, offsetof(SweepRange, spacing), SPACING_LINEAR, 0, 0, "",
+     "Equal differences or equal ratios.", .choices = spacings},
+};
+const OptionTable section_range_options = {range_rows, sizeof range_rows / sizeof *range_rows,
+                                           sizeof(SweepRange)};
+
 const char *const section_root_keys[] = {"system",   "dynamics", "protocol", "observe",
-                                         "ensemble", "output",   NULL};
+                                         "ensemble", "output",   "sweep",    NULL};
 
 static const Section before_methods[] = {
     {"", NULL, "A run file is one YAML map of sections.", &section_title_options},
@@ -47,6 +61,12 @@ static const Section before_observables[] = {
 static const Section after_observables[] = {
     {"ensemble", NULL, "Independent samples of the same system.", &ensemble_options},
     {"output", NULL, "What is written while the run goes on.", &output_options},
+    {"sweep", NULL,
+     "Runs over every combination of values: a map from paths, such as system.packing_fraction, to "
+     "lists or ranges. Each point runs in a folder of its own, and the quantities of all are put "
+     "together, as functions of what is swept.",
+     NULL},
+    {"sweep.PATH", NULL, "A range of values in place of a list.", &section_range_options},
 };
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
@@ -121,7 +141,6 @@ static const struct {
     {"theory", "this version has no theory; give system, dynamics and protocol"},
     {"schematic", "this version has no theory; give system, dynamics and protocol"},
     {"itt", "this version has no theory; give system, dynamics and protocol"},
-    {"sweep", "this version runs one point; start it once per value with --set KEY=VALUE"},
     {"stress", "this version does not measure it; pressure is there"},
     {"self_scattering", "this version does not measure it; structure_factor is there"},
     {"coherent_scattering", "this version does not measure it; structure_factor is there"},

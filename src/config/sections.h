@@ -6,6 +6,15 @@
 #include "base/option.h"
 
 #include <stdbool.h>
+#include <stdint.h>
+
+// {first: 0.5, last: 0.7, count: 3}, in place of a list of values.
+typedef struct SweepRange {
+    double first, last;
+    int64_t count;
+    int64_t spacing;
+} SweepRange;
+enum { SPACING_LINEAR, SPACING_LOGARITHMIC };
 
 enum { SECTION_PATH_SIZE = 96, SECTION_HOME_SIZE = 192 };
 
@@ -28,4 +37,5 @@ const char *section_hint(const char *word);
 
 extern const OptionTable section_title_options;  // `title`, of the Plan
 extern const OptionTable section_method_options; // `method` of `dynamics`, a char[OPTION_TEXT_SIZE]
+extern const OptionTable section_range_options;  // of a SweepRange
 extern const char *const section_root_keys[];    // NULL-ended: keys beside `title`

@@ -343,22 +343,23 @@ static Status no_such_stage(const Node *stages, const Node *place, const char *n
 }
 
 // An entry of a map by its key, made if need be; of a list of stages by the stage's name.
-static Status set_step(Node *parent, const char *assignment, const char *key, Node **out) {
+static Status set_step(Node *parent, const Node *place, const char *key, Node **out) {
     char shown[QUOTE_SIZE];
-    const Node place = {.source = assignment};
     if (parent->kind == NODE_WORD)
-        return tree_fail(&place, "there is nothing below '%s'", tree_quote(shown, parent->key));
+        return tree_fail(place, "there is nothing below '%s'", tree_quote(shown, parent->key));
     for (Node *entry = parent->first; entry; entry = entry->next) {
         const Node *name = parent->kind == NODE_LIST ? tree_find(entry, "stage") : NULL;
         const char *called = name ? name->text : entry->key;
         if (called && strcmp(called, key) == 0) return *out = entry, OK;
     }
-    if (parent->kind == NODE_LIST) return no_such_stage(parent, &place, key);
+    if (parent->kind == NODE_LIST) return no_such_stage(parent, place, key);
     Node **slot = &parent->first;
     while (*slot) slot = &(*slot)->next;
     TRY(NEW(*slot));
     (*slot)->kind = NODE_MAP;
-    (*slot)->source = assignment;
+    (*slot)->source = place->source;
+    (*slot)->line = place->line;
+    (*slot)->column = place->column;
     parent->count++;
     *out = *slot;
     TRY(NEW_ARRAY((*slot)->key, strlen(key) + 1));
@@ -374,6 +375,8 @@ static void replace_contents(Node *node, Node *value) {
                    .text = value->text,
                    .key = old.key,
                    .source = value->source,
+                   .line = value->line,
+                   .column = value->column,
                    .count = value->count,
                    .first = value->first,
                    .next = old.next};
@@ -382,22 +385,40 @@ static void replace_contents(Node *node, Node *value) {
     memory_free(value);
 }
 
-static Status set_path(Node *root, char *path, const char *assignment, const char *value) {
-    Node *node = root;
+static Status no_such_path(const Node *place) {
+    if (place->line > 0) return tree_fail(place, "a key here is a path like system.particles");
+    return status_fail(BAD_USAGE,
+                       "--set %.200s: error: write KEY=VALUE, where KEY is a path like "
+                       "system.particles",
+                       place->source);
+}
+
+// What stands at the end of the path a.b.c, made if need be. Cuts the path.
+static Status walk_path(Node *root, char *path, const Node *place, Node **out) {
     char *rest = path;
+    *out = root;
     for (size_t depth = 0; rest; depth++) {
-        const char *key = strsep(&rest, ".");
-        if (*key == '\0' || depth >= DEPTH_MOST)
-            return status_fail(BAD_USAGE,
-                               "--set %s: error: write KEY=VALUE, where KEY is a path "
-                               "like system.particles",
-                               assignment);
-        TRY(set_step(node, assignment, key, &node));
+        const bool whole = (*out)->key && strcmp((*out)->key, "sweep") == 0; // keys are paths there
+        const char *key = strsep(&rest, whole ? "" : ".");
+        if (*key == '\0' || depth >= DEPTH_MOST) return no_such_path(place);
+        TRY(set_step(*out, place, key, out));
     }
+    return OK;
+}
+
+static Status set_value(Node *root, char *path, const char *assignment, const char *value) {
+    const Node place = {.source = assignment};
     TreeReader reader = {.name = assignment, .setting = true};
-    Node *contents = NULL;
+    Node *node = NULL, *contents = NULL;
+    TRY(walk_path(root, path, &place, &node));
     TRY(read_with(&reader, value, strlen(value), &contents));
     replace_contents(node, contents);
+    return OK;
+}
+
+static Status copy_text(char **out, const char *text, size_t length) {
+    TRY(NEW_ARRAY(*out, length + 1));
+    memcpy(*out, text, length);
     return OK;
 }
 
@@ -406,11 +427,31 @@ Status tree_set(Node *root, const char *assignment) {
     if (!equals || equals == assignment || equals[1] == '\0' || strlen(assignment) > SIZE_MOST)
         return status_fail(BAD_USAGE, "--set %.200s: error: write KEY=VALUE", assignment);
     char *path = NULL;
-    const size_t length = (size_t)(equals - assignment);
-    TRY(NEW_ARRAY(path, length + 1));
-    memcpy(path, assignment, length);
-    const Status status = set_path(root, path, assignment, equals + 1);
+    TRY(copy_text(&path, assignment, (size_t)(equals - assignment)));
+    const Status status = set_value(root, path, assignment, equals + 1);
     memory_free(path);
+    return status;
+}
+
+static Status put_word(Node *node, const Node *from, const char *word) {
+    Node *contents = NULL;
+    TRY(NEW(contents));
+    *contents = (Node){.source = from->source, .line = from->line, .column = from->column};
+    const Status status = copy_text(&contents->text, word, strlen(word));
+    if (status == OK)
+        replace_contents(node, contents);
+    else
+        memory_free(contents);
+    return status;
+}
+
+Status tree_put(Node *root, const char *path, const Node *from, const char *word) {
+    char *steps = NULL;
+    Node *node = NULL;
+    TRY(copy_text(&steps, path, strlen(path)));
+    Status status = walk_path(root, steps, from, &node);
+    memory_free(steps);
+    if (status == OK) status = put_word(node, from, word);
     return status;
 }
 

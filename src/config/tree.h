@@ -33,6 +33,9 @@ Status tree_read_value(Node **out, const char *name, const char *text);
 // name of a stage picks one.
 Status tree_set(Node *root, const char *assignment);
 
+// Puts a word in the place "a.b.c", in the same way; sentences about it give the place of `from`.
+Status tree_put(Node *root, const char *path, const Node *from, const char *word);
+
 void tree_free(Node *node);
 
 Node *tree_find(const Node *map, const char *key); // NULL if none

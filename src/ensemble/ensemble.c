@@ -11,10 +11,10 @@
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
 struct Ensemble {
     EnsembleShared shared;
+    EnsembleSlots *slots;
     size_t threads, started;
     pthread_t *thread;
     atomic_size_t next_replica;
@@ -28,28 +28,24 @@ static double monotonic_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static size_t thread_count(int wish, size_t replicas) {
-    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    const size_t most = wish > 0 ? (size_t)wish : processors > 0 ? (size_t)processors : 1;
-    return most < replicas ? most : replicas;
-}
-
-static Status allocate(Ensemble *ensemble, const Plan *plan, int threads) {
+static Status allocate(Ensemble *ensemble, const Plan *plan) {
     EnsembleShared *shared = &ensemble->shared;
     const size_t replicas = (size_t)plan->ensemble.replicas;
-    ensemble->threads = thread_count(threads, replicas);
+    const size_t slots = ensemble_slots_count(ensemble->slots);
+    ensemble->threads = slots < replicas ? slots : replicas;
     TRY(NEW_ARRAY(ensemble->thread, ensemble->threads));
     TRY(NEW_ARRAY(shared->units, replicas));
     return results_create(&shared->results, replicas);
 }
 
-Status ensemble_create(Ensemble **out, const Plan *plan, Store *store, int threads) {
+Status ensemble_create(Ensemble **out, const Plan *plan, Store *store, EnsembleSlots *slots) {
     Ensemble *ensemble = NULL;
     TRY(NEW(ensemble));
     pthread_mutex_init(&ensemble->shared.mutex, NULL);
     ensemble->shared.plan = plan;
     ensemble->shared.store = store;
-    const Status status = allocate(ensemble, plan, threads);
+    ensemble->slots = slots;
+    const Status status = allocate(ensemble, plan);
     if (status != OK) {
         ensemble_free(ensemble);
         return status;
@@ -85,15 +81,23 @@ static void keep_failure(EnsembleShared *shared, Status status) {
     atomic_store(&shared->stop, 1);
 }
 
+// The next replica; false when there is none or all are to stop.
+static bool work_on_one(Ensemble *ensemble) {
+    EnsembleShared *shared = &ensemble->shared;
+    if (atomic_load(&shared->stop)) return false;
+    const size_t replica = atomic_fetch_add(&ensemble->next_replica, 1);
+    if (replica >= (size_t)shared->plan->ensemble.replicas) return false;
+    const Status status = unit_run(shared, replica);
+    if (status != OK) keep_failure(shared, status);
+    return true;
+}
+
 static void *work(void *argument) {
     Ensemble *ensemble = argument;
-    EnsembleShared *shared = &ensemble->shared;
-    const size_t replicas = (size_t)shared->plan->ensemble.replicas;
-    while (!atomic_load(&shared->stop)) {
-        const size_t replica = atomic_fetch_add(&ensemble->next_replica, 1);
-        if (replica >= replicas) break;
-        const Status status = unit_run(shared, replica);
-        if (status != OK) keep_failure(shared, status);
+    for (bool more = true; more;) {
+        slots_take(ensemble->slots);
+        more = work_on_one(ensemble);
+        slots_give(ensemble->slots);
     }
     atomic_fetch_sub(&ensemble->threads_left, 1);
     return NULL;

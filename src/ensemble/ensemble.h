@@ -9,8 +9,16 @@
 
 typedef struct Ensemble Ensemble;
 
-// Plan and store are borrowed until ensemble_free. threads = 0: as many as processors.
-Status ensemble_create(Ensemble **out, const Plan *plan, Store *store, int threads);
+// Processors that several ensembles share: each of their threads works only while it holds one.
+typedef struct EnsembleSlots EnsembleSlots;
+
+Status ensemble_slots_create(EnsembleSlots **out, int threads); // 0: as many as processors
+int ensemble_slots_free_now(EnsembleSlots *slots);              // that no thread holds
+size_t ensemble_slots_count(const EnsembleSlots *slots);
+void ensemble_slots_free(EnsembleSlots *slots);
+
+// Plan, store and slots are borrowed until ensemble_free.
+Status ensemble_create(Ensemble **out, const Plan *plan, Store *store, EnsembleSlots *slots);
 size_t ensemble_threads(const Ensemble *ensemble); // that it uses
 Status ensemble_start(Ensemble *ensemble);
 

@@ -3,6 +3,7 @@
 // threads share.
 #pragma once
 
+#include "ensemble/ensemble.h"
 #include "protocol/plan.h"
 #include "store/store.h"
 
@@ -40,6 +41,9 @@ typedef struct EnsembleShared {
     Status failure;
     char sentence[1024];
 } EnsembleShared;
+
+void slots_take(EnsembleSlots *slots); // waits for one
+void slots_give(EnsembleSlots *slots);
 
 Status unit_run(EnsembleShared *shared, size_t replica);
 

@@ -25,9 +25,17 @@ const FigureKind *figure_kind(size_t row) {
     return row < KINDS ? &kinds[row] : NULL;
 }
 
+static bool has_axis(const ResultSeries *series, const char *name) {
+    for (size_t a = 0; a < series->axes; a++) {
+        if (strcmp(series->axis[a].name, name) == 0) return true;
+    }
+    return false;
+}
+
 const FigureKind *figure_kind_of(const ResultSeries *series) {
     for (size_t i = 0; i < KINDS; i++) {
-        if (strcmp(kinds[i].observable, series->observable) == 0) return &kinds[i];
+        if (strcmp(kinds[i].observable, series->observable) != 0) continue;
+        if (!kinds[i].axis || has_axis(series, kinds[i].axis)) return &kinds[i];
     }
     return NULL;
 }

@@ -11,6 +11,7 @@
 // How an observable is drawn. Whatever has no row in figures.def is drawn by the plain rule.
 typedef struct FigureKind {
     const char *observable;
+    const char *axis; // that the series must have; NULL: any
     const char *title;
     const char *x, *y; // symbols
     bool log_x, log_y;

@@ -160,16 +160,31 @@ static bool same_shape(const ResultSeries *a, const ResultSeries *b) {
     return true;
 }
 
+// Of this shape; made where there is none yet.
+static Status series_of(Results *results, const ResultSeries *shape, size_t replica,
+                        ResultSeries **out) {
+    ASSERT(replica < results->replicas);
+    *out = find_series(results, shape->stage, shape->observable);
+    if (!*out) TRY(add_series(results, shape, out));
+    if (same_shape(*out, shape)) return OK;
+    return status_fail(BAD_DATA, "%s/%s has other axes in replica %zu than before", shape->stage,
+                       shape->observable, replica);
+}
+
 Status results_put_series(Results *results, const ResultSeries *shape, size_t replica,
                           const double *values) {
-    ASSERT(replica < results->replicas);
-    ResultSeries *series = find_series(results, shape->stage, shape->observable);
-    if (!series) TRY(add_series(results, shape, &series));
-    if (!same_shape(series, shape)) {
-        return status_fail(BAD_DATA, "%s/%s has other axes in replica %zu than before",
-                           shape->stage, shape->observable, replica);
-    }
+    ResultSeries *series = NULL;
+    TRY(series_of(results, shape, replica, &series));
     memcpy(series->values + replica * series->size, values, series->size * sizeof *values);
+    return OK;
+}
+
+Status results_put_element(Results *results, const ResultSeries *shape, size_t replica,
+                           size_t element, double value) {
+    ResultSeries *series = NULL;
+    TRY(series_of(results, shape, replica, &series));
+    ASSERT(element < series->size);
+    series->values[replica * series->size + element] = value;
     return OK;
 }
 

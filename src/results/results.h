@@ -69,6 +69,9 @@ void results_free(Results *results);
 // the axes, and fills the others with NaN. `shape` has stage, observable, unit, about, axes, axis.
 Status results_put_series(Results *results, const ResultSeries *shape, size_t replica,
                           const double *values);
+// One element of a series, by its place among the replica's values.
+Status results_put_element(Results *results, const ResultSeries *shape, size_t replica,
+                           size_t element, double value);
 Status results_put_scalar(Results *results, const char *stage, const char *quantity,
                           const char *unit, const char *about, size_t replica, double value);
 Status results_put_fact(Results *results, const char *name, const char *text);

@@ -11,13 +11,15 @@ typedef struct Session Session;
 
 typedef struct SessionWishes {
     const char *directory;
-    int threads;      // 0: as many as processors
-    bool must_resume; // refuse to start anew
+    int threads;          // 0: as many as processors
+    EnsembleSlots *slots; // shared with other sessions, borrowed; NULL: its own, of `threads`
+    bool must_resume;     // refuse to start anew
 } SessionWishes;
 
 // Locks the directory, refuses one that holds another plan, starts the threads. The plan is
 // borrowed until session_close.
 Status session_open(Session **out, const Plan *plan, const SessionWishes *wishes);
+bool session_has_plan(const char *directory); // a run was begun there
 bool session_resumes(const Session *session); // there were results or checkpoints of this plan
 
 bool session_running(const Session *session);

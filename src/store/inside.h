@@ -5,11 +5,14 @@
 #include "store/disk.h"
 #include "store/store.h"
 
-#include <pthread.h>
+#include <stdint.h>
 
 struct Store {
     Folder folder;
-    int lock;             // descriptor of perrin.lock
-    uint64_t plan;        // names the plan: hash of its text
-    pthread_mutex_t hdf5; // HDF5 is used by one thread at a time
+    int lock;      // descriptor of perrin.lock
+    uint64_t plan; // names the plan: hash of its text
 };
+
+// HDF5 is used by one thread of the process at a time, whatever the store.
+void store_take_hdf5(void);
+void store_give_hdf5(void);

@@ -99,7 +99,9 @@ static int wait_for(pid_t process) {
 static Status ask_child(void *file, size_t file_size, char **bytes, size_t *size) {
     int ends[2];
     if (pipe(ends) != 0) return status_fail_errno(IO_FAILED, "cannot make a pipe");
+    store_take_hdf5(); // the child must not find it half way through another thread's call
     const pid_t process = fork();
+    if (process != 0) store_give_hdf5();
     if (process == 0) child(ends[1], file, file_size);
     close(ends[1]);
     Status status = OK;

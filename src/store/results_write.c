@@ -197,9 +197,9 @@ static Status build(Image *image, const Results *results) {
 
 Status store_write_results(Store *store, const Results *results) {
     Image image;
-    pthread_mutex_lock(&store->hdf5);
+    store_take_hdf5();
     Status status = build(&image, results);
-    pthread_mutex_unlock(&store->hdf5);
+    store_give_hdf5();
     if (status == OK) {
         status = disk_replace(&store->folder, "results.h5", image.bytes, image.size);
     }

@@ -8,6 +8,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -18,6 +19,16 @@
 #include <unistd.h>
 
 enum { HOLDER_SIZE = 128 };
+
+static pthread_mutex_t hdf5 = PTHREAD_MUTEX_INITIALIZER; // the library has a state of its own
+
+void store_take_hdf5(void) {
+    pthread_mutex_lock(&hdf5);
+}
+
+void store_give_hdf5(void) {
+    pthread_mutex_unlock(&hdf5);
+}
 
 // FNV-1a: tells plans apart, guards against mix-ups, not against malice.
 static uint64_t plan_hash(const char *text) {
@@ -77,7 +88,6 @@ Status store_open(Store **out, const char *directory) {
     Store *store = NULL;
     TRY(NEW(store));
     store->lock = -1;
-    pthread_mutex_init(&store->hdf5, NULL);
     Status status = disk_folder_open(&store->folder, NULL, directory, true);
     if (status == OK) status = take_lock(store);
     if (status != OK) {
@@ -92,7 +102,6 @@ void store_close(Store *store) {
     if (!store) return;
     if (store->lock >= 0) close(store->lock);
     disk_folder_close(&store->folder);
-    pthread_mutex_destroy(&store->hdf5);
     memory_free(store);
 }
 

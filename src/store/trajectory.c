@@ -107,10 +107,10 @@ static Status open_file(Trajectory *trajectory, const Folder *folder, const char
     return check_done(trajectory, done);
 }
 
-static Status build_locked(Store *store, Layout *layout, Image *image, const State *state) {
-    pthread_mutex_lock(&store->hdf5);
+static Status build_locked(Layout *layout, Image *image, const State *state) {
+    store_take_hdf5();
     const Status status = layout_build(layout, image, state);
-    pthread_mutex_unlock(&store->hdf5);
+    store_give_hdf5();
     return status;
 }
 
@@ -119,7 +119,7 @@ static Status open_in(Trajectory *trajectory, Store *store, const State *state, 
     snprintf(name, sizeof name, "replica-%04llu.h5",
              (unsigned long long)trajectory->layout.replica);
     Image image;
-    Status status = build_locked(store, &trajectory->layout, &image, state);
+    Status status = build_locked(&trajectory->layout, &image, state);
     Folder folder = {.descriptor = -1};
     if (status == OK) status = disk_folder_open(&folder, &store->folder, "trajectory", true);
     if (status == OK) {

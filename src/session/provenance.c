@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where results come from.
+#include "session/provenance.h"
+
+#include "base/cpu.h"
+#include "base/text.h"
+#include "base/version.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+static Status put_integer(Results *results, const char *name, int64_t value) {
+    char text[32];
+    snprintf(text, sizeof text, "%lld", (long long)value);
+    return results_put_fact(results, name, text);
+}
+
+static Status put_when_and_where(Results *results, double seconds) {
+    char text[256];
+    const time_t now = time(NULL);
+    struct tm utc;
+    strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
+    TRY(results_put_fact(results, "finished", text));
+    if (gethostname(text, sizeof text) != 0) strcpy(text, "unknown");
+    text[sizeof text - 1] = '\0';
+    TRY(results_put_fact(results, "host", text));
+    snprintf(text, sizeof text, "%.3f", seconds);
+    return results_put_fact(results, "wall_seconds", text);
+}
+
+// Platelets have no volume, so that their number density says how dense they are.
+static void put_density(Text *words, const System *system) {
+    const double packing = system_packing_fraction(system);
+    if (packing > 0)
+        text_add(words, "packing fraction %.6g", packing);
+    else
+        text_add(words, "number density %.6g d^-%d", system_number_density(system),
+                 (int)system->dimension);
+}
+
+// "1000 particles in 2 dimensions, packing fraction 0.7: 500 small of diameter 1, 500 big of ..."
+static Status put_system(Results *results, const System *system) {
+    size_t counts[SPECIES_MOST];
+    system_counts(system, counts);
+    Text words = {0};
+    text_add(&words, "%lld particles in %d dimensions, ", (long long)system->particles,
+             (int)system->dimension);
+    put_density(&words, system);
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Species *species = &system->species[s];
+        text_add(&words, "%s%zu %s of diameter %.6g", s ? ", " : ": ", counts[s], species->name,
+                 species->diameter);
+        if (species->length > 0) text_add(&words, " and length %.6g", species->length);
+        if (species->spread != SPREAD_NONE)
+            text_add(&words, " ± %.3g %%", 100 * species->spread_width);
+        if (species->mass != 1) text_add(&words, " and mass %.6g", species->mass);
+    }
+    const Status status = results_put_fact(results, "system", text_words(&words));
+    text_free(&words);
+    return status;
+}
+
+// "settle: newtonian, 200 d sqrt(m/kT); quiescent: event-driven, 10 d^2/D0"
+static Status put_stages(Results *results, const Plan *plan) {
+    Text words = {0};
+    for (size_t s = 0; s < plan->stage_count; s++) {
+        const Stage *stage = &plan->stages[s];
+        text_add(&words, "%s%s: %s, %.6g %s", s ? "; " : "", stage->name,
+                 stage->dynamics.kind->name, stage->time, stage->dynamics.kind->time_unit);
+    }
+    const Status status = results_put_fact(results, "stages", text_words(&words));
+    text_free(&words);
+    return status;
+}
+
+Status provenance_put(Results *results, const Plan *plan, const char *plan_text, double seconds) {
+    TRY(results_put_fact(results, "title", plan->title));
+    TRY(put_system(results, &plan->system));
+    TRY(put_stages(results, plan));
+    TRY(results_put_fact(results, "version", version_number()));
+    TRY(results_put_fact(results, "commit", version_commit()));
+    TRY(results_put_fact(results, "compiler", version_compiler()));
+    TRY(results_put_fact(results, "flags", version_flags()));
+    TRY(results_put_fact(results, "vector_path", cpu_path_name(cpu_path())));
+    TRY(put_integer(results, "seed", plan->ensemble.seed));
+    TRY(put_integer(results, "replicas", plan->ensemble.replicas));
+    TRY(results_put_fact(results, "plan", plan_text));
+    return put_when_and_where(results, seconds);
+}
