@@ -8,7 +8,7 @@
 static const RngKey KEY = {.seed = 20261125, .replica = 5};
 static const double SIGMAS = 5; // two-sided p = 6e-7
 
-static Clock clock_of(double tick, int64_t ticks) {
+static Clock rotor_clock(double tick, int64_t ticks) {
     return (Clock){
         .tick = tick, .ticks = ticks, .ticks_per_step = 1, .unit = "d^2/D0", .stage = "quiescent"};
 }
@@ -51,7 +51,7 @@ static void point_along_y(State *state, int64_t tick) {
 START_TEST(aligned_axes_have_order_one_whichever_end_is_up) {
     const System system = oriented_system(101, 1);
     State *state = new_state(&system);
-    const Clock clock = clock_of(0.5, 100);
+    const Clock clock = rotor_clock(0.5, 100);
     Results *results = watched(&observable_nematic_order, state, &clock, point_along_y);
     ck_assert_double_eq_tol(found(results, "nematic_order"), 1, 1e-14);
     ck_assert_double_eq_tol(found(results, "nematic_order_middle"), 1, 1e-14);
@@ -71,7 +71,7 @@ START_TEST(axes_without_order_have_the_bias_of_their_number_and_no_other) {
     enum { AXES = 500, LOOKS = 1000 };
     const System system = oriented_system(AXES, 1);
     State *state = new_state(&system);
-    const Clock clock = clock_of(1, LOOKS);
+    const Clock clock = rotor_clock(1, LOOKS);
     Results *results = watched(&observable_nematic_order, state, &clock, point_at_random);
     const double bias = sqrt(0.4) * 2.25 / sqrt(PI);
     ck_assert_double_eq_tol(bias, 0.803, 5e-4); // as the results say
@@ -136,7 +136,7 @@ START_TEST(axes_in_a_field_have_the_order_of_its_quadrature) {
     enum { AXES = 1000, LOOKS = 200 };
     const System system = oriented_system(AXES, 1);
     State *state = new_state(&system);
-    const Clock clock = clock_of(1, LOOKS);
+    const Clock clock = rotor_clock(1, LOOKS);
     Results *results = watched(&observable_nematic_order, state, &clock, point_in_field);
     const double order = order_in_field(); // 0.61
     // P2 of an axis spreads by less than 0.5; the largest eigenvalue is above by O(1/N).
@@ -164,7 +164,7 @@ static void cross(State *state, int64_t tick) {
 START_TEST(every_species_has_its_own_order) {
     const System system = oriented_system(200, 2);
     State *state = new_state(&system);
-    const Clock clock = clock_of(1, 50);
+    const Clock clock = rotor_clock(1, 50);
     Results *results = watched(&observable_nematic_order, state, &clock, cross);
     ck_assert_double_eq_tol(found(results, "nematic_order_plate"), 1, 1e-14);
     ck_assert_double_eq_tol(found(results, "nematic_order_rod"), 1, 1e-14);
@@ -187,7 +187,7 @@ static void align_later(State *state, int64_t tick) {
 START_TEST(order_that_appears_later_is_seen_in_its_blocks) {
     const System system = oriented_system(400, 1);
     State *state = new_state(&system);
-    const Clock clock = clock_of(0.5, 1000);
+    const Clock clock = rotor_clock(0.5, 1000);
     Results *results = watched(&observable_nematic_order, state, &clock, align_later);
     const ResultSeries *series = series_of(results, "quiescent", "nematic_order");
     const ResultAxis *time = &series->axis[2];
@@ -261,7 +261,7 @@ static double walk_error(double rate, double lag) {
 START_TEST(free_rotors_forget_as_debye_says) {
     const System system = oriented_system(WALKERS, 1);
     State *state = new_state(&system);
-    const Clock clock = clock_of(TICK, WALK_TICKS);
+    const Clock clock = rotor_clock(TICK, WALK_TICKS);
     Results *results = watched(&observable_orientation_correlation, state, &clock, walk);
     const ResultSeries *series = series_of(results, "quiescent", "orientation_correlation");
     const ResultAxis *time = &series->axis[2];
@@ -291,7 +291,7 @@ START_TEST(free_bodies_diffuse_along_where_they_pointed) {
     ck_assert_double_eq_tol(along_axis(1 / 6.0), 0.315020537, 1e-8);
     const System system = oriented_system(WALKERS, 1);
     State *state = new_state(&system);
-    const Clock clock = clock_of(TICK, WALK_TICKS);
+    const Clock clock = rotor_clock(TICK, WALK_TICKS);
     Results *results = watched(&observable_directional_displacement, state, &clock, walk);
     const ResultSeries *series = series_of(results, "quiescent", "directional_displacement");
     const ResultAxis *time = &series->axis[2];
@@ -330,7 +330,7 @@ static void fly(State *state, int64_t tick) {
 START_TEST(flight_is_along_and_across_the_director) {
     const System system = oriented_system(50, 2);
     State *state = new_state(&system);
-    const Clock clock = clock_of(1, 900);
+    const Clock clock = rotor_clock(1, 900);
     Results *results = watched(&observable_directional_displacement, state, &clock, fly);
     const ResultSeries *series = series_of(results, "quiescent", "directional_displacement");
     const size_t lags = series->axis[2].count;
@@ -355,7 +355,7 @@ static void turn_over(State *state, int64_t tick) {
 START_TEST(a_body_turned_over_is_seen_by_the_first_polynomial_only) {
     const System system = oriented_system(40, 2);
     State *state = new_state(&system);
-    const Clock clock = clock_of(1, 100);
+    const Clock clock = rotor_clock(1, 100);
     Results *results = watched(&observable_orientation_correlation, state, &clock, turn_over);
     const ResultSeries *series = series_of(results, "quiescent", "orientation_correlation");
     const size_t lags = series->axis[2].count;
@@ -373,7 +373,7 @@ START_TEST(a_body_turned_over_is_seen_by_the_first_polynomial_only) {
 END_TEST
 
 static void expect_refusal(const ObservableKind *kind, const System *system, const char *words) {
-    const Clock clock = clock_of(1, 100);
+    const Clock clock = rotor_clock(1, 100);
     const Settings settings = settings_of(&kind->options);
     ck_assert_int_eq(kind->check(&settings, system, &clock), BAD_DATA);
     ck_assert_msg(strstr(status_sentence(), words) != NULL, "'%s'", status_sentence());
