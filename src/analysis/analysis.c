@@ -28,6 +28,7 @@ Status derive_theory(Results *results, const char *stage, const System *system) 
 static Status derive_from(Results *results, const ResultSeries *series, const System *system) {
     const char *observable = series->observable;
     if (strcmp(observable, "mean_squared_displacement") == 0) {
+        if (series->axes > 3) return OK; // of waiting times: what ages has no coefficient
         TRY(derive_diffusion(results, series));
         return derive_free_displacement(results, series, system);
     }
@@ -45,6 +46,15 @@ static Status derive_from(Results *results, const ResultSeries *series, const Sy
     }
     if (strcmp(observable, "pressure") == 0) {
         return derive_theory(results, series->stage, system);
+    }
+    if (strcmp(observable, "collective_scattering") == 0) {
+        return derive_normalised_scattering(results, series);
+    }
+    if (strcmp(observable, "quartic_displacement") == 0) {
+        return derive_non_gaussian(results, series, system);
+    }
+    if (strcmp(observable, "overlap_square") == 0) {
+        return derive_susceptibility(results, series, system);
     }
     return OK;
 }

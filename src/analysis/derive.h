@@ -14,3 +14,7 @@ Status derive_free_displacement(Results *results, const ResultSeries *displaceme
 Status derive_free_bodies(Results *results, const ResultSeries *series, const System *system);
 Status derive_contact(Results *results, const ResultSeries *distribution);
 Status derive_theory(Results *results, const char *stage, const System *system);
+// Likewise.
+Status derive_normalised_scattering(Results *results, const ResultSeries *scattering);
+Status derive_non_gaussian(Results *results, const ResultSeries *quartic, const System *system);
+Status derive_susceptibility(Results *results, const ResultSeries *square, const System *system);

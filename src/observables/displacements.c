@@ -58,6 +58,14 @@ bool displacements_ended(Displacements *d, int64_t tick, size_t k, size_t *row) 
     return true;
 }
 
+void displacements_squares(const Displacements *d, double *squares) {
+    for (size_t i = 0; i < d->lanes; i++) squares[i] = d->moved[i] * d->moved[i];
+    for (int a = 1; a < d->dimension; a++) {
+        const double *moved = d->moved + (size_t)a * d->lanes;
+        for (size_t i = 0; i < d->lanes; i++) squares[i] += moved[i] * moved[i];
+    }
+}
+
 void displacements_keep(Displacements *d, int64_t tick) {
     history_keep(&d->history, tick, d->now);
 }

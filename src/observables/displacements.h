@@ -29,5 +29,8 @@ void displacements_look(Displacements *d, const State *state); // first, at each
 bool displacements_ended(Displacements *d, int64_t tick, size_t k, size_t *row);
 void displacements_keep(Displacements *d, int64_t tick); // last
 
+// |moved|^2 of every lane.
+void displacements_squares(const Displacements *d, double *squares);
+
 // Samples of row `row`: particles of species [first, last) times origins seen.
 double displacements_samples(const Displacements *d, size_t row, size_t first, size_t last);

@@ -33,8 +33,10 @@ typedef struct LagSettings {
     OptionReals waiting_times; // empty where the observable has no such key
 } LagSettings;
 
-// Their rows of an option table, for the member `lags` of the struct `Type`.
-#define LAG_OPTIONS(Type, lags)                                                                    \
+// Their rows of an option table, for the member `lags` of the struct `Type`, with the defaults that
+// a correlation function has by its cost.
+#define LAG_OPTIONS(Type, lags) LAG_OPTIONS_OF(Type, lags, 10, 64)
+#define LAG_OPTIONS_OF(Type, lags, lags_per_decade, origins_kept)                                  \
     {.name = "times.first",                                                                        \
      .type = OPTION_REAL,                                                                          \
      .offset = offsetof(Type, lags.first),                                                         \
@@ -52,7 +54,7 @@ typedef struct LagSettings {
         {.name = "times.per_decade",                                                               \
          .type = OPTION_INTEGER,                                                                   \
          .offset = offsetof(Type, lags.per_decade),                                                \
-         .fallback = 10,                                                                           \
+         .fallback = lags_per_decade,                                                              \
          .least = 1,                                                                               \
          .most = 50,                                                                               \
          .unit = "",                                                                               \
@@ -60,7 +62,7 @@ typedef struct LagSettings {
              "Lags per factor of ten in time, as near to even spacing as whole ticks allow."},     \
     {                                                                                              \
         .name = "origins", .type = OPTION_INTEGER, .offset = offsetof(Type, lags.origins),         \
-        .fallback = 64, .least = 1, .most = 4096, .unit = "",                                      \
+        .fallback = origins_kept, .least = 1, .most = 4096, .unit = "",                            \
         .about = "Time origins within the longest lag: as many configurations are kept in memory." \
     }
 

@@ -3,6 +3,7 @@
 // through all frames, all particles and all vectors with the C library's own functions.
 #include "observe.h"
 
+#include "analysis/analysis.h"
 #include "base/constants.h"
 #include "observables/lags.h"
 #include "observables/versines.h"
@@ -24,6 +25,11 @@ static void make_walk(const State *state) {
             }
         }
     }
+}
+
+static void stay(State *state, int64_t tick) {
+    (void)state;
+    (void)tick;
 }
 
 static void walk_to(State *state, int64_t tick) {
@@ -124,7 +130,16 @@ static Vector vector_along(const char *name, double q) {
     ck_abort_msg("no direction '%s'", name);
 }
 
-// Compares every element of self_scattering. `waits`: origins, or NULL for many.
+static int64_t only_origin(const Lags *lags, size_t row) {
+    return lags->waits ? lags->wait[row / lags->count] : -1;
+}
+
+static void compare(double got, double slow, double scale) {
+    ck_assert_msg(isnan(slow) ? isnan(got) : fabs(got - slow) < 1e-11 * scale, "%.17g, not %.17g",
+                  got, slow);
+}
+
+// Every element of self_scattering.
 static void compare_self(const Walked *w, const Lags *lags) {
     const ResultSeries *f = series_of(w->results, "quiescent", "self_scattering");
     const ResultAxis *axis = f->axis;
@@ -134,7 +149,7 @@ static void compare_self(const Walked *w, const Lags *lags) {
         const Range range = range_of(w->state, s);
         for (size_t q = 0; q < numbers; q++) {
             for (size_t row = 0; row < times; row++) {
-                const int64_t only = lags->waits ? lags->wait[row / lags->count] : -1;
+                const int64_t only = only_origin(lags, row);
                 double mean = 0;
                 for (size_t d = 0; d < ways; d++) {
                     const Vector vector = vector_along(axis[1].labels[d], axis[2].values[q]);
@@ -142,11 +157,11 @@ static void compare_self(const Walked *w, const Lags *lags) {
                         slow_mean(lags, row % lags->count, only, range, cosine_seen, &vector);
                     const double got =
                         f->values[((s * (ways + 1) + d) * numbers + q) * times + row];
-                    ck_assert(isnan(slow) ? isnan(got) : fabs(slow - got) < 1e-12);
+                    compare(got, slow, 1);
                     mean += slow / (double)ways;
                 }
                 const double got = f->values[((s * (ways + 1) + ways) * numbers + q) * times + row];
-                ck_assert(isnan(mean) ? isnan(got) : fabs(mean - got) < 1e-12);
+                compare(got, mean, 1);
             }
         }
     }
@@ -154,6 +169,14 @@ static void compare_self(const Walked *w, const Lags *lags) {
 
 static const OptionReals WAVE_NUMBERS = {.count = 3, .values = {1.1, 3, 7.5}};
 static const OptionReals WAITING_TIMES = {.count = 3, .values = {0, 21, 100}};
+
+// The lags that both an observer with these settings and its twin have.
+static Lags lags_with(const Walked *w, int64_t per_decade, int64_t origins, bool waiting) {
+    const LagSettings chosen = {.per_decade = per_decade,
+                                .origins = origins,
+                                .waiting_times = waiting ? WAITING_TIMES : (OptionReals){0}};
+    return lags_chosen(&chosen, &w->clock);
+}
 
 // _i: bit 0 dimension, bit 1 waiting times.
 START_TEST(self_scattering_agrees_with_its_slow_twin) {
@@ -163,13 +186,263 @@ START_TEST(self_scattering_agrees_with_its_slow_twin) {
     set_number(&settings, &kind->options, "origins", 10);
     if (_i & 2) set_list(&settings, kind, "waiting_times", WAITING_TIMES);
     Walked w = walked(kind, &settings, 2 + (_i & 1));
-    const LagSettings chosen = {.per_decade = 10,
-                                .origins = 10,
-                                .waiting_times = _i & 2 ? WAITING_TIMES : (OptionReals){0}};
-    const Lags lags = lags_chosen(&chosen, &w.clock);
+    const Lags lags = lags_with(&w, 10, 10, _i & 2);
     ck_assert_uint_eq(lags.waits, _i & 2 ? 3 : 0);
     compare_self(&w, &lags);
     forget(&w);
+}
+END_TEST
+
+// Re rho_a*(q) rho_b(q) between two frames, for every vector of the half lattice in the shell.
+static double slow_products(const State *state, const double low_high[2], int64_t from, int64_t to,
+                            Range a, Range b) {
+    double sum = 0, count = 0;
+    const int planes = state->box.dimension == 3 ? 12 : 0;
+    for (int x = 0; x <= 12; x++) {
+        for (int y = -12; y <= 12; y++) {
+            for (int z = -planes; z <= planes; z++) {
+                if (x < 0 || (x == 0 && (y < 0 || (y == 0 && z <= 0)))) continue;
+                const double q[3] = {2 * PI * x / state->box.edge[0],
+                                     2 * PI * y / state->box.edge[1],
+                                     2 * PI * z / state->box.edge[2]};
+                const double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]);
+                if (length < low_high[0] || length >= low_high[1]) continue;
+                double modes[2][2] = {{0, 0}, {0, 0}};
+                for (size_t i = 0; i < WALKERS; i++) {
+                    double phase[2] = {0, 0};
+                    for (int d = 0; d < state->box.dimension; d++) {
+                        phase[0] += q[d] * walk[from][d][i];
+                        phase[1] += q[d] * walk[to][d][i];
+                    }
+                    const bool in[2] = {i >= a.begin && i < a.end, i >= b.begin && i < b.end};
+                    for (int k = 0; k < 2; k++) {
+                        if (!in[k]) continue;
+                        modes[k][0] += cos(phase[k]);
+                        modes[k][1] += sin(phase[k]);
+                    }
+                }
+                sum += modes[0][0] * modes[1][0] + modes[0][1] * modes[1][1];
+                count++;
+            }
+        }
+    }
+    return sum / count / WALKERS;
+}
+
+// Of a pair of species after a number of ticks, as the observer has it.
+static double slow_collective(const State *state, const Lags *lags, int64_t only, int64_t ticks,
+                              const double low_high[2], size_t a, size_t b) {
+    double sum = 0, count = 0;
+    const Range one = range_of(state, a), other = range_of(state, b);
+    for (int64_t t = 0; t + ticks <= WALK_TICKS; t++) {
+        if (only >= 0 ? t != only : t % lags->spacing != 0) continue;
+        sum += (slow_products(state, low_high, t, t + ticks, one, other) +
+                slow_products(state, low_high, t, t + ticks, other, one)) /
+               2;
+        count++;
+    }
+    return sum / count;
+}
+
+// _i: bit 0 dimension, bit 1 waiting times.
+START_TEST(collective_scattering_agrees_with_its_slow_twin) {
+    const ObservableKind *kind = &observable_collective_scattering;
+    Settings settings = settings_of(&kind->options);
+    set_list(&settings, kind, "wave_numbers", (OptionReals){2, {1.5, 2.9}});
+    set_number(&settings, &kind->options, "shell.width", 0.9);
+    set_number(&settings, &kind->options, "shell.vectors", 0);
+    set_number(&settings, &kind->options, "times.per_decade", 2);
+    set_number(&settings, &kind->options, "origins", 4);
+    if (_i & 2) set_list(&settings, kind, "waiting_times", WAITING_TIMES);
+    Walked w = walked(kind, &settings, 2 + (_i & 1));
+    const Lags lags = lags_with(&w, 2, 4, _i & 2);
+    const ResultSeries *f = series_of(w.results, "quiescent", "collective_scattering");
+    const size_t groups = lags.waits ? lags.waits : 1, times = lags.count + 1;
+    ck_assert_uint_eq(f->size, 4 * 2 * groups * times);
+    static const size_t pairs[3][2] = {{0, 0}, {0, 1}, {1, 1}};
+    const double shells[2][2] = {{1.05, 1.95}, {2.45, 3.35}};
+    for (size_t e = 0; e < 2 * groups * times; e++) {
+        const size_t shell = e / (groups * times), group = e / times % groups, time = e % times;
+        const int64_t ticks = time ? lags.ticks[time - 1] : 0;
+        double total = 0;
+        for (size_t pair = 0; pair < 3; pair++) {
+            const double slow =
+                slow_collective(w.state, &lags, lags.waits ? lags.wait[group] : -1, ticks,
+                                shells[shell], pairs[pair][0], pairs[pair][1]);
+            compare(f->values[pair * 2 * groups * times + e], slow, 1);
+            total += pair == 1 ? 2 * slow : slow;
+        }
+        compare(f->values[3 * 2 * groups * times + e], total, 1);
+    }
+    forget(&w);
+}
+END_TEST
+
+START_TEST(collective_scattering_begins_at_the_structure_factor) {
+    const System system = system_of(2 + _i, 300, 0.3, 2);
+    State *state = new_state(&system);
+    scatter(state, KEY, 1);
+    const Clock clock = clock_of(400, 2);
+    const ObservableKind *kinds[] = {&observable_structure_factor,
+                                     &observable_collective_scattering};
+    Settings settings[2];
+    for (int k = 0; k < 2; k++) settings[k] = settings_of(&kinds[k]->options);
+    set_list(&settings[1], kinds[1], "wave_numbers", (OptionReals){3, {3.1, 6.1, 9.7}});
+    Results *results[2];
+    for (int k = 0; k < 2; k++) {
+        ck_assert_int_eq(kinds[k]->check(&settings[k], &system, &clock), OK);
+        Observer *observer = new_observer(kinds[k], &settings[k], state, &clock);
+        watch(observer, state, stay, -1, 400);
+        results[k] = written(observer, state);
+        kinds[k]->free(observer);
+    }
+    const ResultSeries *s = series_of(results[0], "quiescent", "structure_factor");
+    const ResultSeries *f = series_of(results[1], "quiescent", "collective_scattering");
+    const size_t times = f->axis[2].count;
+    for (size_t q = 0; q < 3; q++) {
+        size_t shell = 0;
+        while (s->axis[1].values[shell] < f->axis[1].values[q] - 1e-9) shell++;
+        ck_assert_double_eq_tol(s->axis[1].values[shell], f->axis[1].values[q], 1e-12);
+        for (size_t pair = 0; pair < 4; pair++) {
+            const double expected = s->values[pair * s->axis[1].count + shell];
+            for (size_t k = 0; k < times; k++) // nothing moves
+                ck_assert_double_eq_tol(f->values[(pair * 3 + q) * times + k], expected, 1e-12);
+        }
+    }
+    for (int k = 0; k < 2; k++) results_free(results[k]);
+    state_free(state);
+}
+END_TEST
+
+static double length_of(const double *from_to[2][3], size_t i, int dimension) {
+    double square = 0;
+    for (int a = 0; a < dimension; a++) square += pow(from_to[1][a][i] - from_to[0][a][i], 2);
+    return sqrt(square);
+}
+
+typedef struct Wanted {
+    int dimension;
+    double low, high; // of the lengths that are counted; or low is the power of a moment
+} Wanted;
+
+static double moment_seen(const double *from_to[2][3], size_t i, const void *what) {
+    const Wanted *wanted = what;
+    return pow(length_of(from_to, i, wanted->dimension), wanted->low);
+}
+
+static double range_seen(const double *from_to[2][3], size_t i, const void *what) {
+    const Wanted *wanted = what;
+    const double length = length_of(from_to, i, wanted->dimension);
+    return length >= wanted->low && length < wanted->high;
+}
+
+// values[species][row] against the twin.
+static void compare_rows(const Walked *w, const char *observable, const Lags *lags, Seen seen,
+                         const Wanted *wanted) {
+    const ResultSeries *series = series_of(w->results, "quiescent", observable);
+    const size_t row_count = lags_rows(lags);
+    ck_assert_uint_eq(series->size, (WALK_SPECIES + 1) * row_count);
+    for (size_t e = 0; e < series->size; e++) {
+        const size_t row = e % row_count;
+        const double slow = slow_mean(lags, row % lags->count, only_origin(lags, row),
+                                      range_of(w->state, e / row_count), seen, wanted);
+        compare(series->values[e], slow, 100);
+    }
+}
+
+// _i: bit 0 dimension, bit 1 waiting times.
+START_TEST(moments_agree_with_their_slow_twin) {
+    const ObservableKind *kind = &observable_non_gaussian_parameter;
+    Settings settings = settings_of(&kind->options);
+    set_number(&settings, &kind->options, "origins", 10);
+    if (_i & 2) set_list(&settings, kind, "waiting_times", WAITING_TIMES);
+    Walked w = walked(kind, &settings, 2 + (_i & 1));
+    const Lags lags = lags_with(&w, 10, 10, _i & 2);
+    const Wanted second = {2 + (_i & 1), 2, 0}, fourth = {2 + (_i & 1), 4, 0};
+    compare_rows(&w, "squared_displacement", &lags, moment_seen, &second);
+    compare_rows(&w, "quartic_displacement", &lags, moment_seen, &fourth);
+    forget(&w);
+}
+END_TEST
+
+START_TEST(overlap_agrees_with_its_slow_twin) {
+    const ObservableKind *kind = &observable_overlap;
+    Settings settings = settings_of(&kind->options);
+    set_number(&settings, &kind->options, "origins", 10);
+    set_number(&settings, &kind->options, "distance", 0.5);
+    if (_i & 2) set_list(&settings, kind, "waiting_times", WAITING_TIMES);
+    Walked w = walked(kind, &settings, 2 + (_i & 1));
+    const Lags lags = lags_with(&w, 10, 10, _i & 2);
+    const Wanted inside = {2 + (_i & 1), 0, 0.5};
+    compare_rows(&w, "overlap", &lags, range_seen, &inside);
+    // The mean square, from one origin, is the square of the mean.
+    const ResultSeries *q = series_of(w.results, "quiescent", "overlap");
+    const ResultSeries *square = series_of(w.results, "quiescent", "overlap_square");
+    for (size_t e = 0; e < q->size; e++) {
+        if (_i & 2)
+            compare(square->values[e], q->values[e] * q->values[e], 1);
+        else
+            ck_assert_double_ge(square->values[e], q->values[e] * q->values[e] - 1e-15);
+    }
+    forget(&w);
+}
+END_TEST
+
+START_TEST(van_hove_function_agrees_with_its_slow_twin) {
+    const ObservableKind *kind = &observable_van_hove;
+    const int dimension = 2 + (_i & 1);
+    Settings settings = settings_of(&kind->options);
+    set_number(&settings, &kind->options, "origins", 10);
+    set_number(&settings, &kind->options, "distances.spacing", 0.25);
+    if (_i & 2) set_list(&settings, kind, "waiting_times", WAITING_TIMES);
+    Walked w = walked(kind, &settings, dimension);
+    const Lags lags = lags_with(&w, 2, 10, _i & 2);
+    const ResultSeries *g = series_of(w.results, "quiescent", "van_hove");
+    const size_t bins = 12, row_count = lags_rows(&lags);
+    ck_assert_uint_eq(g->size, (WALK_SPECIES + 1) * row_count * bins);
+    for (size_t e = 0; e < g->size; e++) {
+        const size_t row = e / bins % row_count;
+        const Wanted bin = {dimension, 0.25 * (double)(e % bins), 0.25 * (double)(e % bins + 1)};
+        const double volume = dimension == 2 ? PI * (bin.high * bin.high - bin.low * bin.low)
+                                             : 4 * PI / 3 * (pow(bin.high, 3) - pow(bin.low, 3));
+        const double slow = slow_mean(&lags, row % lags.count, only_origin(&lags, row),
+                                      range_of(w.state, e / bins / row_count), range_seen, &bin);
+        compare(g->values[e], slow / volume, 100);
+    }
+    forget(&w);
+}
+END_TEST
+
+// Pseudo-values of the fluctuation of an overlap that is known: their mean is the unbiased
+// variance over all origins of all replicas, where replicas have one origin each.
+START_TEST(susceptibility_is_the_unbiased_variance) {
+    const System system = system_of(2, 100, 0.4, 1);
+    static const double overlaps[] = {0.31, 0.28, 0.35, 0.30, 0.26};
+    static const char *const names[] = {"small"};
+    const double time = 1;
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 5), OK);
+    double mean = 0, variance = 0;
+    for (size_t r = 0; r < 5; r++) {
+        ResultSeries shape = {
+            .stage = "quiescent",
+            .observable = "overlap",
+            .axes = 2,
+            .axis = {{.name = "species", .unit = "", .count = 1, .labels = names},
+                     {.name = "time", .unit = "d^2/D0", .count = 1, .values = &time}}};
+        const double square = overlaps[r] * overlaps[r];
+        ck_assert_int_eq(results_put_series(results, &shape, r, &overlaps[r]), OK);
+        strcpy(shape.observable, "overlap_square");
+        ck_assert_int_eq(results_put_series(results, &shape, r, &square), OK);
+        mean += overlaps[r] / 5;
+    }
+    for (size_t r = 0; r < 5; r++) variance += pow(overlaps[r] - mean, 2) / 4;
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    const ResultSeries *chi = series_of(results, "quiescent", "four_point_susceptibility");
+    const Estimate estimate = results_series_estimate(results, chi, 0);
+    ck_assert_double_eq_tol(estimate.value, 100 * variance, 1e-12);
+    ck_assert_double_gt(estimate.error, 0);
+    results_free(results);
 }
 END_TEST
 
@@ -207,6 +480,12 @@ START_TEST(what_cannot_be_correlated_is_refused_with_a_sentence) {
     const ObservableKind *kind = &observable_self_scattering;
     expect_refusal(kind, "wave_numbers", (OptionReals){2, {0.1, 3}}, "0.1 is below 2 pi/L");
     expect_refusal(kind, "wave_numbers", (OptionReals){2, {3, 2}}, "must ascend, but 2 follows 3");
+    expect_refusal(&observable_collective_scattering, "wave_numbers", (OptionReals){1, {0.1}},
+                   "0.1 is below 2 pi/L");
+    expect_refusal(&observable_collective_scattering, "wave_numbers", (OptionReals){2, {3, 3.1}},
+                   "overlap; make shell.width = 0.2 smaller");
+    expect_refusal(&observable_collective_scattering, "wave_numbers", (OptionReals){1, {0.63}},
+                   "no wave vector of the box");
     expect_refusal(kind, "waiting_times", (OptionReals){1, {501}}, "not within the stage");
     expect_refusal(kind, "waiting_times", (OptionReals){2, {5, 5}}, "must ascend");
     Settings settings = settings_of(&kind->options);
@@ -224,6 +503,12 @@ int main(void) {
     TCase *c = tcase_create("correlators");
     tcase_set_timeout(c, 60);
     tcase_add_loop_test(c, self_scattering_agrees_with_its_slow_twin, 0, 4);
+    tcase_add_loop_test(c, collective_scattering_agrees_with_its_slow_twin, 0, 4);
+    tcase_add_loop_test(c, collective_scattering_begins_at_the_structure_factor, 0, 2);
+    tcase_add_loop_test(c, moments_agree_with_their_slow_twin, 0, 4);
+    tcase_add_loop_test(c, overlap_agrees_with_its_slow_twin, 0, 4);
+    tcase_add_loop_test(c, van_hove_function_agrees_with_its_slow_twin, 0, 4);
+    tcase_add_test(c, susceptibility_is_the_unbiased_variance);
     tcase_add_test(c, versines_have_the_same_bits_on_every_path);
     tcase_add_test(c, what_cannot_be_correlated_is_refused_with_a_sentence);
     suite_add_tcase(suite, c);

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is not a mean but a function of means: normalised scattering functions, the non-Gaussian
+// parameter, the four-point susceptibility. The function is taken of the means over all replicas,
+// f(all), and of those without each one of them, f(all but r); a replica's value is the jackknife's
+// pseudo-value n f(all) - (n - 1) f(all but r) (Efron, The Jackknife, 1982), so that the mean over
+// replicas is free of the bias of order 1/n that a mean of functions has, and its standard error
+// is the jackknife's.
+#include "analysis/derive.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// Of the means of two elements; `constant` is the function's own.
+typedef double (*OfMeans)(double first, double second, double constant);
+
+// An element of a series, of every replica.
+typedef struct Element {
+    const ResultSeries *series;
+    size_t index;
+} Element;
+
+static double value_of(const Element *element, size_t replica) {
+    return element->series->values[replica * element->series->size + element->index];
+}
+
+// values[replica * stride]: NaN where a replica has no value.
+static void jackknife(const Results *results, const Element *first, const Element *second,
+                      OfMeans function, double constant, double *values, size_t stride) {
+    double sums[2] = {0, 0}, n = 0;
+    for (size_t r = 0; r < results->replicas; r++) {
+        const double a = value_of(first, r), b = value_of(second, r);
+        if (!isfinite(a) || !isfinite(b)) continue;
+        sums[0] += a;
+        sums[1] += b;
+        n++;
+    }
+    const double of_all = function(sums[0] / n, sums[1] / n, constant);
+    for (size_t r = 0; r < results->replicas; r++) {
+        const double a = value_of(first, r), b = value_of(second, r);
+        double *value = values + r * stride;
+        *value = NAN;
+        if (!isfinite(a) || !isfinite(b)) continue;
+        *value = of_all;
+        if (n < 2) continue;
+        const double without = function((sums[0] - a) / (n - 1), (sums[1] - b) / (n - 1), constant);
+        *value = n * of_all - (n - 1) * without;
+    }
+}
+
+// One of these: elements `second_of` and constants by element.
+typedef struct Function {
+    const char *name, *about;
+    const ResultSeries *first, *second;
+    size_t (*second_of)(const ResultSeries *series, size_t element);
+    double (*constant_of)(const ResultSeries *series, size_t element, const System *system);
+    OfMeans of;
+} Function;
+
+static void fill(const Results *results, const Function *function, const System *system,
+                 double *values) {
+    const ResultSeries *shape = function->first;
+    for (size_t e = 0; e < shape->size; e++) {
+        const Element first = {shape, e};
+        const Element second = {function->second, function->second_of(shape, e)};
+        jackknife(results, &first, &second, function->of, function->constant_of(shape, e, system),
+                  values + e, shape->size);
+    }
+}
+
+static Status put(Results *results, const Function *function, const System *system) {
+    ResultSeries shape = *function->first; // adding a series moves those that are there
+    double *values = NULL;
+    TRY(NEW_ARRAY(values, results->replicas * shape.size));
+    fill(results, function, system, values);
+    snprintf(shape.observable, sizeof shape.observable, "%s", function->name);
+    snprintf(shape.about, sizeof shape.about, "%s", function->about);
+    shape.unit[0] = '\0';
+    Status status = OK;
+    for (size_t r = 0; r < results->replicas && status == OK; r++) {
+        status = results_put_series(results, &shape, r, values + r * shape.size);
+    }
+    memory_free(values);
+    return status;
+}
+
+static size_t same_element(const ResultSeries *series, size_t element) {
+    (void)series;
+    return element;
+}
+
+static double no_constant(const ResultSeries *series, size_t element, const System *system) {
+    (void)series;
+    (void)element;
+    (void)system;
+    return 0;
+}
+
+// Time is the last axis, and 0 its first.
+static size_t at_time_zero(const ResultSeries *series, size_t element) {
+    return element - element % series->axis[series->axes - 1].count;
+}
+
+static double ratio(double first, double second, double constant) {
+    (void)constant;
+    return first / second;
+}
+
+Status derive_normalised_scattering(Results *results, const ResultSeries *scattering) {
+    const Function function = {
+        .name = "collective_scattering_normalised",
+        .about = "Collective intermediate scattering functions over their value at t = 0, "
+                 "F_ab(q,t)/S_ab(q).",
+        .first = scattering,
+        .second = scattering,
+        .second_of = at_time_zero,
+        .constant_of = no_constant,
+        .of = ratio};
+    return put(results, &function, NULL);
+}
+
+static double dimension_of(const ResultSeries *series, size_t element, const System *system) {
+    (void)series;
+    (void)element;
+    return (double)system->dimension;
+}
+
+static double non_gaussian(double quartic, double square, double dimension) {
+    return dimension * quartic / ((dimension + 2) * square * square) - 1;
+}
+
+Status derive_non_gaussian(Results *results, const ResultSeries *quartic, const System *system) {
+    const ResultSeries *squared =
+        results_find_series(results, quartic->stage, "squared_displacement");
+    if (!squared || squared->size != quartic->size) return OK;
+    const Function function = {
+        .name = "non_gaussian_parameter",
+        .about = "alpha_2 = dim <r^4>/((dim + 2) <r^2>^2) - 1 of the displacements; 0 if they are "
+                 "Gaussian.",
+        .first = quartic,
+        .second = squared,
+        .second_of = same_element,
+        .constant_of = dimension_of,
+        .of = non_gaussian};
+    return put(results, &function, system);
+}
+
+// Of the species, or of all: their number.
+static double particles_of(const ResultSeries *series, size_t element, const System *system) {
+    size_t counts[SPECIES_MOST];
+    system_counts(system, counts);
+    const size_t species = element / (series->size / series->axis[0].count);
+    return (double)(species < system->species_count ? counts[species] : (size_t)system->particles);
+}
+
+static double variance(double square, double mean, double particles) {
+    return particles * (square - mean * mean);
+}
+
+Status derive_susceptibility(Results *results, const ResultSeries *square, const System *system) {
+    const ResultSeries *overlap = results_find_series(results, square->stage, "overlap");
+    if (!overlap || overlap->size != square->size) return OK;
+    const Function function = {
+        .name = "four_point_susceptibility",
+        .about = "chi_4 = N (<Q^2> - <Q>^2) of the overlap Q, over time origins and replicas, at "
+                 "fixed numbers of particles.",
+        .first = square,
+        .second = overlap,
+        .second_of = same_element,
+        .constant_of = particles_of,
+        .of = variance};
+    return put(results, &function, system);
+}

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Second and fourth moments of the displacements of each species, <r^2> and <r^4>, from which
+// analysis has the non-Gaussian parameter alpha_2 = dim <r^4>/((dim + 2) <r^2>^2) - 1 (Rahman,
+// Phys. Rev. 136, A405, 1964): a ratio of means, which is not the mean of the replicas' ratios.
+#include "base/memory.h"
+#include "observables/displacements.h"
+#include "observables/labels.h"
+#include "observables/put.h"
+
+#include <stdio.h>
+
+typedef struct MomentSettings {
+    LagSettings lags;
+} MomentSettings;
+
+static const Option rows[] = {LAG_OPTIONS(MomentSettings, lags),
+                              WAITING_OPTION(MomentSettings, lags)};
+
+typedef struct Moments {
+    Observer observer;
+    Displacements moves;
+    double *squares; // [lanes], of the displacements
+    double *sums;    // [row of lags][species][second, fourth]
+} Moments;
+
+static const LagSettings *lag_settings(const Settings *settings) {
+    return &((const MomentSettings *)settings->bytes)->lags;
+}
+
+static Status check(const Settings *settings, const System *system, const Clock *clock) {
+    (void)system;
+    return lags_check("non_gaussian_parameter", lag_settings(settings), clock);
+}
+
+static size_t sum_count(const Moments *self) {
+    return lags_rows(&self->moves.history.lags) * self->moves.species_count * 2;
+}
+
+static Status allocate(Moments *self, const State *state, const Lags *lags) {
+    TRY(displacements_make(&self->moves, state, lags));
+    TRY(NEW_ARRAY(self->squares, self->moves.lanes));
+    return NEW_ARRAY(self->sums, sum_count(self));
+}
+
+static void discard(Observer *observer) {
+    Moments *self = (Moments *)observer;
+    displacements_clear(&self->moves);
+    memory_free(self->squares);
+    memory_free(self->sums);
+    memory_free(self);
+}
+
+static Status create(Observer **out, const Settings *settings, const State *state,
+                     const Clock *clock) {
+    Moments *self = NULL;
+    TRY(NEW(self));
+    self->observer = (Observer){.kind = &observable_non_gaussian_parameter, .clock = *clock};
+    const Lags lags = lags_chosen(lag_settings(settings), clock);
+    const Status status = allocate(self, state, &lags);
+    if (status != OK) {
+        discard(&self->observer);
+        return status;
+    }
+    *out = &self->observer;
+    return OK;
+}
+
+static int64_t next(const Observer *observer, int64_t after) {
+    return lags_next(&((const Moments *)observer)->moves.history.lags, &observer->clock, after);
+}
+
+// The lanes that no particle has moved add nothing.
+static void add_row(Moments *self, double *sums) {
+    displacements_squares(&self->moves, self->squares);
+    for (size_t s = 0; s < self->moves.species_count; s++) {
+        Lanes second = {0}, fourth = {0};
+        for (size_t i = self->moves.begin[s]; i < self->moves.begin[s + 1]; i += LANES) {
+            const Lanes square = *(const Lanes *)(self->squares + i);
+            second += square;
+            fourth += square * square;
+        }
+        sums[2 * s] += lanes_sum(&second);
+        sums[2 * s + 1] += lanes_sum(&fourth);
+    }
+}
+
+static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
+    (void)tally;
+    Moments *self = (Moments *)observer;
+    displacements_look(&self->moves, state);
+    for (size_t k = 0; k < self->moves.history.lags.count; k++) {
+        size_t row = 0;
+        if (displacements_ended(&self->moves, tick, k, &row))
+            add_row(self, self->sums + row * self->moves.species_count * 2);
+    }
+    displacements_keep(&self->moves, tick);
+    return OK;
+}
+
+static const uint64_t MOMENTS_TAG = 0x4d4f4d454e303031; // "MOMEN001"
+
+static void archive(Observer *observer, Archive *archive) {
+    Moments *self = (Moments *)observer;
+    archive_tag(archive, MOMENTS_TAG);
+    displacements_archive(&self->moves, archive);
+    archive_f64(archive, self->sums, sum_count(self));
+}
+
+// values[species][row]; the last species all of them, if there are several. NaN where nothing was
+// seen.
+static void fill(const Moments *self, size_t labels, size_t moment, double *values) {
+    const size_t species_count = self->moves.species_count;
+    const size_t row_count = lags_rows(&self->moves.history.lags);
+    for (size_t s = 0; s < labels; s++) {
+        const size_t first = s < species_count ? s : 0;
+        const size_t last = s < species_count ? s + 1 : species_count;
+        for (size_t row = 0; row < row_count; row++) {
+            double sum = 0;
+            for (size_t i = first; i < last; i++)
+                sum += self->sums[(row * species_count + i) * 2 + moment];
+            *values++ = sum / displacements_samples(&self->moves, row, first, last);
+        }
+    }
+}
+
+static Status put(const Moments *self, const Labels *species, double *values, double *times,
+                  Results *results, size_t replica) {
+    static const char *const names[] = {"squared_displacement", "quartic_displacement"};
+    static const char *const units[] = {"d^2", "d^4"};
+    static const char *const abouts[] = {"<|r(t) - r(0)|^2> over particles and time origins.",
+                                         "<|r(t) - r(0)|^4> over particles and time origins."};
+    for (size_t moment = 0; moment < 2; moment++) {
+        ResultSeries shape = {.about = "", .axes = 1, .axis = {{.name = "species", .unit = ""}}};
+        snprintf(shape.unit, sizeof shape.unit, "%s", units[moment]);
+        snprintf(shape.about, sizeof shape.about, "%s", abouts[moment]);
+        shape.axis[0].count = species->count;
+        shape.axis[0].labels = species->names;
+        shape.axes += lags_axes(&self->moves.history.lags, &self->observer.clock, times,
+                                shape.axis + shape.axes);
+        fill(self, species->count, moment, values);
+        TRY(observer_put_series(&self->observer, names[moment], &shape, results, replica, values));
+    }
+    return OK;
+}
+
+static Status write(const Observer *observer, const State *state, Results *results,
+                    size_t replica) {
+    const Moments *self = (const Moments *)observer;
+    const Lags *lags = &self->moves.history.lags;
+    Labels species;
+    labels_of_species(&species, &state->system);
+    double *values = NULL, *times = NULL;
+    Status status = NEW_ARRAY(values, species.count * lags_rows(lags));
+    if (status == OK) status = NEW_ARRAY(times, lags_axis_values(lags));
+    if (status == OK) status = put(self, &species, values, times, results, replica);
+    memory_free(values);
+    memory_free(times);
+    return status;
+}
+
+static size_t memory(const Settings *settings, const System *system, const Clock *clock) {
+    const Lags lags = lags_chosen(lag_settings(settings), clock);
+    return sizeof(Moments) + displacements_memory(system, &lags) +
+           ((size_t)system->particles + lags_rows(&lags) * system->species_count * 2) *
+               sizeof(double);
+}
+
+const ObservableKind observable_non_gaussian_parameter = {
+    .name = "non_gaussian_parameter",
+    .about =
+        "How far the displacements of each species are from Gaussian: zero for free diffusion, "
+        "large where some particles are caged and some escape.",
+    .options = {rows, sizeof rows / sizeof *rows, sizeof(MomentSettings)},
+    .check = check,
+    .create = create,
+    .next = next,
+    .see = see,
+    .archive = archive,
+    .write = write,
+    .free = discard,
+    .memory = memory,
+};
