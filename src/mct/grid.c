@@ -50,6 +50,7 @@ Status grid_create(Grid **out, int dimension, size_t count, double last) {
     TRY(NEW(grid));
     grid->dimension = dimension;
     grid->count = count;
+    grid->lines = lines();
     grid->stride = lines_stride(count);
     const double range = zero(dimension, count) / last;
     const double band = 1.5 * zero(dimension, count + 1) / range;

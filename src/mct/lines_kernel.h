@@ -19,10 +19,25 @@ KERNEL double line_dot(const double *a, const double *b, size_t stride) {
     return lanes_sum(&all);
 }
 
-KERNEL void line_add(double *sum, double factor, const double *a, size_t stride) {
+KERNEL void line_dots(const double *const j[3], const double *phi, const double *x, const double *y,
+                      size_t stride, double sums[4]) {
+    const Lanes *j0 = (const Lanes *)j[0], *j1 = (const Lanes *)j[1], *j2 = (const Lanes *)j[2];
+    const Lanes *f = (const Lanes *)phi, *g = (const Lanes *)x, *h = (const Lanes *)y;
+    Lanes sum[4] = {{0}};
+    for (size_t i = 0; i < stride / LANES; i++) {
+        sum[0] += j0[i] * f[i];
+        sum[1] += j0[i] * g[i];
+        sum[2] += j2[i] * g[i];
+        sum[3] += j1[i] * h[i];
+    }
+    for (int k = 0; k < 4; k++) sums[k] = lanes_sum(&sum[k]);
+}
+
+KERNEL void line_add(double *sum, double p, const double *a, double r, const double *b,
+                     size_t stride) {
     Lanes *total = (Lanes *)sum;
-    const Lanes *x = (const Lanes *)a;
-    for (size_t i = 0; i < stride / LANES; i++) total[i] += factor * x[i];
+    const Lanes *x = (const Lanes *)a, *y = (const Lanes *)b;
+    for (size_t i = 0; i < stride / LANES; i++) total[i] += p * x[i] + r * y[i];
 }
 
 KERNEL void line_history(double *sum, size_t stride, size_t terms, const double *moment,
@@ -46,12 +61,17 @@ KERNEL void line_history(double *sum, size_t stride, size_t terms, const double 
     static double dot(const double *a, const double *b, size_t stride) {                           \
         return line_dot(a, b, stride);                                                             \
     }                                                                                              \
-    static void add(double *sum, double factor, const double *a, size_t stride) {                  \
-        line_add(sum, factor, a, stride);                                                          \
+    static void dots(const double *const j[3], const double *phi, const double *x,                 \
+                     const double *y, size_t stride, double sums[4]) {                             \
+        line_dots(j, phi, x, y, stride, sums);                                                     \
+    }                                                                                              \
+    static void add(double *sum, double p, const double *a, double r, const double *b,             \
+                    size_t stride) {                                                               \
+        line_add(sum, p, a, r, b, stride);                                                         \
     }                                                                                              \
     static void history(double *sum, size_t stride, size_t terms, const double *moment,            \
                         ptrdiff_t moment_step, const double *newer, const double *older,           \
                         ptrdiff_t step) {                                                          \
         line_history(sum, stride, terms, moment, moment_step, newer, older, step);                 \
     }                                                                                              \
-    const Lines lines_##path = {dot, add, history};
+    const Lines lines_##path = {dot, dots, add, history};

@@ -42,8 +42,9 @@ double model_product(const Model *model, const double *a, const double *b) {
     double sum = 0;
     for (size_t i = 0; i < model->species; i++) {
         for (size_t j = i; j < model->species; j++)
-            sum += (i == j ? 1 : 2) * lines()->dot(line_of(model, a, i, j), line_of(model, b, i, j),
-                                                   model->grid->stride);
+            sum += (i == j ? 1 : 2) * model->grid->lines->dot(line_of(model, a, i, j),
+                                                              line_of(model, b, i, j),
+                                                              model->grid->stride);
     }
     return sum;
 }
@@ -179,20 +180,17 @@ static Row row_at(const Grid *grid, size_t n) {
 static void transform_pair(const Model *model, const Row *row, size_t a, size_t b,
                            double transforms[TRANSFORMS]) {
     const size_t stride = model->grid->stride;
-    const Lines *with = lines();
+    const Lines *with = model->grid->lines;
     const double *sources = model->sources + mixture_pair(model->species, a, b) * SOURCES * stride;
-    transforms[R_PHI] = with->dot(row->j[0], sources + PHI * stride, stride);
-    transforms[R_T0] = with->dot(row->j[0], sources + X * stride, stride);
-    transforms[R_T2] = with->dot(row->j[2], sources + X * stride, stride);
-    transforms[R_Y] = with->dot(row->j[1], sources + Y * stride, stride);
+    with->dots(row->j, sources + PHI * stride, sources + X * stride, sources + Y * stride, stride,
+               transforms);
     transforms[R_Z] = a == b ? transforms[R_Y] : with->dot(row->j[1], sources + Z * stride, stride);
 }
 
 static void add_back(const Model *model, const Row *row, size_t pair, double g0, double g2,
                      double *field) {
     const size_t stride = model->grid->stride;
-    lines()->add(field + pair * stride, g0, row->j[0], stride);
-    lines()->add(field + pair * stride, g2, row->j[2], stride);
+    model->grid->lines->add(field + pair * stride, g0, row->j[0], g2, row->j[2], stride);
 }
 
 static void scale(const Model *model, double *field) {
@@ -274,16 +272,15 @@ static void spread_pair(Model *model, const Row *row, size_t n, size_t a, size_t
                         const double f[TRANSFORMS], const double *g) {
     const Grid *grid = model->grid;
     const size_t stride = grid->stride, pair = mixture_pair(model->species, a, b);
-    const Lines *with = lines();
+    const Lines *with = model->grid->lines;
     double *sources = model->sources + pair * SOURCES * stride;
     const double g0 = grid->r_weight[n] * with->dot(row->j[0], g + pair * stride, stride);
     const double g2 =
         grid->r_weight[n] * (grid->dimension - 1) * with->dot(row->j[2], g + pair * stride, stride);
-    with->add(sources + PHI * stride, g0 * f[R_T0] + g2 * f[R_T2], row->j[0], stride);
-    with->add(sources + X * stride, g0 * f[R_PHI], row->j[0], stride);
-    with->add(sources + X * stride, g2 * f[R_PHI], row->j[2], stride);
-    with->add(sources + Y * stride, (g2 - g0) * f[R_Z], row->j[1], stride);
-    with->add(sources + Z * stride, (g2 - g0) * f[R_Y], row->j[1], stride);
+    with->add(sources + PHI * stride, g0 * f[R_T0] + g2 * f[R_T2], row->j[0], 0, row->j[0], stride);
+    with->add(sources + X * stride, g0 * f[R_PHI], row->j[0], g2 * f[R_PHI], row->j[2], stride);
+    with->add(sources + Y * stride, (g2 - g0) * f[R_Z], row->j[1], 0, row->j[1], stride);
+    with->add(sources + Z * stride, (g2 - g0) * f[R_Y], row->j[1], 0, row->j[1], stride);
 }
 
 static double *source_line(const Model *model, size_t a, size_t b, int source) {
@@ -326,4 +323,39 @@ void model_adjoint(Model *model, const Radial *phi, const double *g, double *adj
         }
     }
     for (size_t m = 0; m < grid->count; m++) gather(model, m, adjoint);
+}
+
+// rho/(d q^2) int d^dr { J0(qr) T0 phi + (d - 1) J2(qr) T2 phi } with T_n of the species itself: of
+// the vertex only the part with the collective correlator is there (Weysser, thesis, eq. 3.20).
+static void tagged_memory(const Model *model, const Radial *phi, size_t a, const double *source,
+                          double *memory) {
+    const Grid *grid = model->grid;
+    const size_t pair = mixture_pair(model->species, a, a);
+    const double fraction = model->mixture.fraction[a];
+    memset(memory, 0, grid->stride * sizeof *memory);
+    for (size_t n = 0; n < grid->radii; n++) {
+        const Row row = row_at(grid, n);
+        const double *f = radial_at(model, phi, pair, n);
+        const double self =
+            grid->r_weight[n] * model->grid->lines->dot(row.j[0], source, grid->stride);
+        add_back(model, &row, 0, f[R_T0] * self, (grid->dimension - 1) * f[R_T2] * self, memory);
+    }
+    for (size_t m = 0; m < grid->count; m++)
+        memory[m] *= model->scale[pair * grid->stride + m] * fraction * fraction;
+}
+
+void model_tagged(Model *model, const Radial *phi, const double *self, double *memory) {
+    const size_t stride = model->grid->stride;
+    for (size_t a = 0; a < model->species; a++) {
+        double *source = line(model, model->product, a); // which nobody needs any more
+        weigh(source, model->powers[0], self + a * stride, stride);
+        tagged_memory(model, phi, a, source, memory + a * stride);
+    }
+}
+
+void model_displacement(const Model *model, const double *self, double *memory) {
+    const size_t stride = model->grid->stride;
+    for (size_t a = 0; a < model->species; a++)
+        memory[a] = model->density / model->grid->dimension *
+                    model->grid->lines->dot(source_line(model, a, a, X), self + a * stride, stride);
 }

@@ -42,6 +42,12 @@ void model_transform(Model *model, const double *phi, Radial *radial);
 void model_slope(Model *model, const Radial *phi, const double *h, double *slope);
 void model_adjoint(Model *model, const Radial *phi, const double *g, double *adjoint);
 
+// The memory kernels of tagged particles, [species][stride], from their own correlators; the
+// transforms of the collective ones were the last thing done with this model.
+void model_tagged(Model *model, const Radial *phi, const double *self, double *memory);
+// Likewise the kernels of their mean squared displacements, [species].
+void model_displacement(const Model *model, const double *self, double *memory);
+
 // The full symmetric matrix of wave number m, and back.
 void model_matrix(const Model *model, const double *field, size_t m, SmallMatrix matrix);
 void model_put(const Model *model, double *field, size_t m, SmallMatrix matrix);

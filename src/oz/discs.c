@@ -20,11 +20,11 @@
 
 enum {
     PANELS_MOST = 64,
-    ALONE = 20,      // Chebyshev polynomials on a panel that is the whole core
+    ALONE = 20,      // Chebyshev polynomials on a panel that is the whole core: a multiple of 4
     IN_COMPANY = 12, // and on one of several
     STEPS_MOST = 60, // of Newton's method
-    Q_POINTS = 6,    // of Gauss quadrature on a panel of wave numbers
-    LENS_POINTS = 64,
+    Q_POINTS = 5,    // of Gauss quadrature on a panel of wave numbers
+    ATTEMPTS = 4,    // to follow the solution to a density, with ever shorter steps
 };
 
 // Panels of wave numbers, narrow where S(q) has its peaks: width in 1/largest diameter, end in
@@ -56,11 +56,13 @@ struct Discs {
     double *lens;        // [c][pair][basis point]: overlap of the cores ac and cb at distance r
     double *lens_beyond; // likewise: what of it wave numbers beyond those of Newton's method make
     double *coefficient; // [unknowns], the solution so far
+    double *earlier;     // [unknowns], the solution before it
     double *residual;    // [unknowns]
     double *excess;      // [pair][waves]: what of h - c is transformed back
     gsl_matrix *newton;  // decomposed
     gsl_permutation *order_of_rows;
     double solved; // packing fraction of the solution; 0: none
+    double solved_earlier;
     size_t count;  // of wave numbers asked for
     double *asked; // [count][basis]
 };
@@ -262,6 +264,7 @@ static Status discs_allocate(Discs *discs) {
     TRY(NEW_ARRAY(discs->lens, species * discs->pairs * basis));
     TRY(NEW_ARRAY(discs->lens_beyond, species * discs->pairs * basis));
     TRY(NEW_ARRAY(discs->coefficient, discs->unknowns));
+    TRY(NEW_ARRAY(discs->earlier, discs->unknowns));
     TRY(NEW_ARRAY(discs->residual, discs->unknowns));
     TRY(NEW_ARRAY(discs->excess, discs->pairs * waves));
     TRY(NEW_ARRAY(discs->asked, discs->count * basis));
@@ -362,12 +365,18 @@ void discs_free(Discs *discs) {
     memory_free(discs);
 }
 
+// Four sums side by side, which need not wait for each other; all counts here are multiples of 4.
+static double dot(const double *a, const double *b, size_t count) {
+    double sum[4] = {0};
+    for (size_t n = 0; n < count; n += 4) {
+        for (size_t i = 0; i < 4; i++) sum[i] += a[n + i] * b[n + i];
+    }
+    return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+
 // c_ab(q) where the polynomials have these transforms.
 static double direct_at(const Discs *discs, size_t pair, const double *transform) {
-    const double *coefficient = discs->coefficient + discs->first[pair];
-    double sum = 0;
-    for (size_t n = 0; n < discs->in_core[pair]; n++) sum += coefficient[n] * transform[n];
-    return sum;
+    return dot(discs->coefficient + discs->first[pair], transform, discs->in_core[pair]);
 }
 
 // g at contact: minus c on the inner side, where every polynomial is 1.
@@ -458,9 +467,7 @@ static void fill_residual(Discs *discs, const Densities *densities, const double
     const double *coefficient = discs->coefficient + discs->first[pair];
     double *residual = discs->residual + discs->first[pair];
     for (size_t i = 0; i < inside; i++) {
-        const double *value = discs->value + i * discs->basis;
-        residual[i] = 1;
-        for (size_t n = 0; n < inside; n++) residual[i] += value[n] * coefficient[n];
+        residual[i] = 1 + dot(discs->value + i * discs->basis, coefficient, inside);
     }
     add_lenses(discs, densities, contact, a, b, residual);
     for (size_t k = 0; k < discs->waves; k++) {
@@ -615,34 +622,65 @@ static void start(Discs *discs) {
         for (size_t n = 0; n < discs->in_core[pair]; n += discs->order)
             discs->coefficient[discs->first[pair] + n] = -1;
     }
-    discs->solved = 0;
+    discs->solved = discs->solved_earlier = 0;
 }
 
 // Newton's method must begin near: dense solutions are followed in short steps.
-static double next_density(double from, double to) {
-    const double step = from < DILUTE ? LONG_STEP : SHORT_STEP;
+static double next_density(double from, double to, double finer) {
+    const double step = (from < DILUTE ? LONG_STEP : SHORT_STEP) * finer;
     return fabs(to - from) <= step ? to : to > from ? from + step : from - step;
 }
 
-static Status follow(Discs *discs, const Structure *structure, OzEffort *effort) {
+// Along the straight line through the last two solutions, where it is not far from them.
+static void guess(Discs *discs, double next) {
+    const double way = discs->solved - discs->solved_earlier, part = (next - discs->solved) / way;
+    const bool near = discs->solved_earlier > 0 && way != 0 && fabs(part) <= 1.2;
+    for (size_t i = 0; i < discs->unknowns; i++) {
+        const double now = discs->coefficient[i];
+        if (near) discs->coefficient[i] += part * (now - discs->earlier[i]);
+        discs->earlier[i] = now;
+    }
+    discs->solved_earlier = discs->solved;
+}
+
+static Status follow(Discs *discs, const Structure *structure, double finer, OzEffort *effort) {
     const double target = structure->packing_fraction;
     do {
-        const double next = next_density(discs->solved, target);
+        const double next = next_density(discs->solved, target, finer);
         const Densities densities =
             densities_of(&discs->mixture, structure->density * next / target);
+        guess(discs, next);
         TRY(iterate(discs, &densities, effort));
         discs->solved = next;
     } while (discs->solved != target);
     return OK;
 }
 
-Status discs_solve(Discs *discs, Structure *structure, OzEffort *effort) {
-    if (discs->solved == 0) start(discs);
-    const Status status = follow(discs, structure, effort);
-    if (status != OK) {
-        discs->solved = 0;
-        return status;
+// Newton's method may have found another solution than the fluid's, whose S(q) is positive.
+static Status check_fluid(const Discs *discs, const Structure *structure) {
+    const Densities densities = densities_of(&discs->mixture, structure->density);
+    for (size_t k = 0; k < discs->newton_waves; k++) {
+        SmallMatrix c, response;
+        if (!response_at(discs, &densities, k, c, response) ||
+            !small_is_positive(densities.species, response))
+            return status_fail(UNHEALTHY,
+                               "Percus-Yevick discs: at packing fraction %g the solution found has "
+                               "a negative structure factor at q = %g",
+                               structure->packing_fraction, discs->q[k]);
     }
+    return OK;
+}
+
+Status discs_solve(Discs *discs, Structure *structure, OzEffort *effort) {
+    Status status = UNHEALTHY;
+    double finer = 1;
+    for (int attempt = 0; attempt < ATTEMPTS && status != OK; attempt++, finer /= 2) {
+        if (discs->solved == 0) start(discs);
+        status = follow(discs, structure, finer, effort);
+        if (status == OK) status = check_fluid(discs, structure);
+        if (status != OK) discs->solved = 0;
+    }
+    TRY(status);
     for (size_t pair = 0; pair < discs->pairs; pair++) {
         structure->contact[pair] = contact_value(discs, pair);
         for (size_t i = 0; i < discs->count; i++)
