@@ -11,6 +11,7 @@
 //   short_time_diffusion, long_time_diffusion, long_time_window   of mean_squared_displacement
 //   free_displacement, a series: 2 dim D0 t of each species        of the same
 //   long_time_diffusion_parallel, _perpendicular, _along_director, _across_director and windows
+//   free_diffusion_parallel, _perpendicular                       of the same
 //   free_directional_displacement, a series                       of directional_displacement
 //   relaxation_time_P1, relaxation_time_P2, orientation_plateau
 //   free_orientation_correlation, a series                        of orientation_correlation

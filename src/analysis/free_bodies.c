@@ -9,6 +9,7 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 // A label of a series: one species, or all that have an axis. Weights are their particles.
@@ -57,6 +58,11 @@ static double displacement(const Diffusion *free, size_t direction, double time)
     return 2 * mean * time; // the director
 }
 
+static double diffusion(const Diffusion *free, size_t direction, double time) {
+    (void)time;
+    return direction == PARALLEL ? free->parallel : free->perpendicular;
+}
+
 typedef double (*FreeFunction)(const Diffusion *free, size_t row, double time);
 
 static double mean_over_bodies(const Bodies *bodies, FreeFunction function, size_t row,
@@ -83,6 +89,28 @@ static void fill(const ResultSeries *shape, const System *system, FreeFunction f
     }
 }
 
+// Of a label, along or across the body axis, before it turns: NAME, or NAME_SPECIES where there is
+// another label after it.
+static Status put_tensor(Results *results, const ResultSeries *shape, const System *system) {
+    static const char *const names[] = {"free_diffusion_parallel", "free_diffusion_perpendicular"};
+    const Bodies bodies = bodies_with_axes(system);
+    for (size_t l = 0; l < shape->axis[0].count; l++) {
+        const Bodies some = bodies_of_label(&bodies, l);
+        const bool named = l + 1 < shape->axis[0].count;
+        for (size_t row = PARALLEL; row <= PERPENDICULAR; row++) {
+            char name[2 * RESULT_NAME];
+            snprintf(name, sizeof name, "%s%s%s", names[row], named ? "_" : "",
+                     named ? shape->axis[0].labels[l] : "");
+            const double value = mean_over_bodies(&some, diffusion, row, 0);
+            for (size_t r = 0; r < results->replicas; r++) {
+                TRY(results_put_scalar(results, shape->stage, name, "D0",
+                                       "Diffusion of a body alone, in its own frame.", r, value));
+            }
+        }
+    }
+    return OK;
+}
+
 Status derive_free_bodies(Results *results, const ResultSeries *series, const System *system) {
     ResultSeries shape = *series; // adding a series moves those that are there
     if (strcmp(shape.axis[2].unit, "d^2/D0") != 0) return OK; // no clock, no diffusion
@@ -99,5 +127,6 @@ Status derive_free_bodies(Results *results, const ResultSeries *series, const Sy
         status = results_put_series(results, &shape, replica, values);
     }
     memory_free(values);
+    if (status == OK && !turning) status = put_tensor(results, &shape, system);
     return status;
 }

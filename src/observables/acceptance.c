@@ -4,6 +4,7 @@
 // in a trial as in the time parallel^2/(6 D_par), the clock "VA" has it slowed by the acceptance,
 // "VD" by what is left of squared displacements.
 #include "base/memory.h"
+#include "observables/labels.h"
 #include "observables/looks.h"
 #include "observables/put.h"
 
@@ -11,16 +12,37 @@
 #include <stdio.h>
 #include <string.h>
 
+typedef struct AcceptanceSettings {
+    int64_t blocks;
+} AcceptanceSettings;
+
+static const Option rows[] = {
+    {.name = "blocks",
+     .type = OPTION_INTEGER,
+     .offset = offsetof(AcceptanceSettings, blocks),
+     .fallback = 50,
+     .least = 2,
+     .most = 10000,
+     .unit = "",
+     .about = "Blocks of the stage for which acceptance and clock are given: at most this many."},
+};
+
 typedef struct Acceptance {
     Observer observer;
-    int64_t period;               // ticks to the middle, and from there to the end
+    int64_t period;               // ticks of a block
     int64_t seen;                 // ticks
+    size_t blocks;                // that the stage has
     MoveTally half[SPECIES_MOST]; // in the first half of the stage
     MoveTally all[SPECIES_MOST];
+    double *trials, *accepted; // [blocks][SPECIES_MOST]
 } Acceptance;
 
-static int64_t period_for(const Clock *clock) {
-    return looks_period(clock, 2);
+static int64_t period_for(const Settings *settings, const Clock *clock) {
+    return looks_period(clock, ((const AcceptanceSettings *)settings->bytes)->blocks);
+}
+
+static size_t blocks_for(const Settings *settings, const Clock *clock) {
+    return (size_t)looks_count(clock, period_for(settings, clock));
 }
 
 static Status check(const Settings *settings, const System *system, const Clock *clock) {
@@ -30,14 +52,27 @@ static Status check(const Settings *settings, const System *system, const Clock 
     return status_fail(BAD_DATA, "acceptance: this method makes no trials; leave it out");
 }
 
+static void discard(Observer *observer) {
+    Acceptance *acceptance = (Acceptance *)observer;
+    memory_free(acceptance->trials);
+    memory_free(acceptance->accepted);
+    memory_free(acceptance);
+}
+
 static Status create(Observer **out, const Settings *settings, const State *state,
                      const Clock *clock) {
-    (void)settings;
     (void)state;
     Acceptance *acceptance = NULL;
     TRY(NEW(acceptance));
     acceptance->observer = (Observer){.kind = &observable_acceptance, .clock = *clock};
-    acceptance->period = period_for(clock);
+    acceptance->period = period_for(settings, clock);
+    acceptance->blocks = blocks_for(settings, clock);
+    Status status = NEW_ARRAY(acceptance->trials, acceptance->blocks * SPECIES_MOST);
+    if (status == OK) status = NEW_ARRAY(acceptance->accepted, acceptance->blocks * SPECIES_MOST);
+    if (status != OK) {
+        discard(&acceptance->observer);
+        return status;
+    }
     *out = &acceptance->observer;
     return OK;
 }
@@ -48,14 +83,19 @@ static int64_t next(const Observer *observer, int64_t after) {
 
 static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
     Acceptance *acceptance = (Acceptance *)observer;
-    const size_t size = state->system.species_count * sizeof(MoveTally);
-    memcpy(acceptance->all, tally->moves, size);
-    if (acceptance->seen == 0) memcpy(acceptance->half, tally->moves, size);
+    const size_t block = (size_t)(tick / acceptance->period - 1);
+    for (size_t s = 0; s < state->system.species_count; s++) {
+        const MoveTally *now = &tally->moves[s], *before = &acceptance->all[s];
+        acceptance->trials[block * SPECIES_MOST + s] = (double)(now->trials - before->trials);
+        acceptance->accepted[block * SPECIES_MOST + s] = (double)(now->accepted - before->accepted);
+        acceptance->all[s] = *now;
+        if (2 * tick <= acceptance->observer.clock.ticks) acceptance->half[s] = *now;
+    }
     acceptance->seen = tick;
     return OK;
 }
 
-static const uint64_t ACCEPTANCE_TAG = 0x4143434550303031; // "ACCEP001"
+static const uint64_t ACCEPTANCE_TAG = 0x4143434550303032; // "ACCEP002"
 
 static void archive(Observer *observer, Archive *archive) {
     Acceptance *acceptance = (Acceptance *)observer;
@@ -65,6 +105,8 @@ static void archive(Observer *observer, Archive *archive) {
         tally_archive_moves(&acceptance->half[s], archive);
         tally_archive_moves(&acceptance->all[s], archive);
     }
+    archive_f64(archive, acceptance->trials, acceptance->blocks * SPECIES_MOST);
+    archive_f64(archive, acceptance->accepted, acceptance->blocks * SPECIES_MOST);
 }
 
 static double accepted(const MoveTally *moves) {
@@ -103,10 +145,10 @@ static Status put_ratios(const Slot *slot, size_t species) {
     const struct {
         const char *name, *about;
         double squares, free;
-    } rows[] = {
+    } motions[] = {
         {"matching_parallel",
-         "Squared displacement per attempt along the body axis over acceptance times the free one: "
-         "clock VD over VA.",
+         "Mean square of displacements along the body axis, over acceptance times that of free "
+         "bodies: below 1, short moves are accepted more often. diffusion-matching counts it.",
          moves->parallel, moves->free.parallel},
         {"matching_perpendicular", "The same across the body axis.", moves->perpendicular,
          moves->free.perpendicular},
@@ -115,14 +157,15 @@ static Status put_ratios(const Slot *slot, size_t species) {
     };
     const System *system = &slot->state->system;
     if (!shape_is_oriented((ShapeKind)system->species[species].shape))
-        return put(slot, "matching", species, "",
-                   "Squared displacement per attempt over acceptance times the free one: clock VD "
-                   "over VA.",
-                   (moves->parallel + moves->perpendicular) /
-                       (share * (moves->free.parallel + moves->free.perpendicular)));
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        TRY(put(slot, rows[i].name, species, "", rows[i].about,
-                rows[i].squares / (share * rows[i].free)));
+        return put(
+            slot, "matching", species, "",
+            "Mean square of displacements, over acceptance times that of free particles: below "
+            "1, short moves are accepted more often. diffusion-matching counts it.",
+            (moves->parallel + moves->perpendicular) /
+                (share * (moves->free.parallel + moves->free.perpendicular)));
+    for (size_t i = 0; i < sizeof motions / sizeof *motions; i++) {
+        TRY(put(slot, motions[i].name, species, "", motions[i].about,
+                motions[i].squares / (share * motions[i].free)));
     }
     return OK;
 }
@@ -134,11 +177,12 @@ static Status put_species(const Slot *slot, size_t species) {
             accepted(moves)));
     const double later =
         (double)(moves->accepted - half->accepted) / (double)(moves->trials - half->trials);
-    if (moves->trials > half->trials)
-        TRY(put(slot, "acceptance_drift", species, "",
-                "Acceptance in the second half of the stage over that in the first, minus 1: not 0 "
-                "within its error, the stage began before equilibrium.",
-                later / accepted(half) - 1));
+    if (half->trials > 0 && moves->trials > half->trials)
+        TRY(put(
+            slot, "acceptance_drift", species, "",
+            "Acceptance in the second half of the stage over that in the first, minus 1: if it is "
+            "not 0 within its error, the stage began before equilibrium.",
+            later / accepted(half) - 1));
     return put_ratios(slot, species);
 }
 
@@ -164,12 +208,77 @@ static Status put_clock(const Slot *slot) {
                             "Time that a cycle, as many trials as particles, was worth.",
                             slot->results, slot->replica, cycle));
     for (size_t s = 0; s < system->species_count; s++) {
-        TRY(put(slot, "clock_over_acceptance_clock", s, "",
-                "Time of a cycle over what the clock VA makes of the acceptance of the species; of "
-                "several species with the clock VA, how far each is off the common one.",
-                cycle / accepted_cycle(system, s, &acceptance->all[s])));
+        TRY(put(
+            slot, "clock_over_acceptance_clock", s, "",
+            "What a cycle was worth over what acceptance-rescaling would give it; with that clock "
+            "and several species, how far each is off the common one.",
+            cycle / accepted_cycle(system, s, &acceptance->all[s])));
     }
     return OK;
+}
+
+// Accepted trials of a species in each block, over the trials.
+static Status put_acceptances(const Slot *slot, const double *times, double *values) {
+    const Acceptance *acceptance = slot->acceptance;
+    const Clock *clock = &acceptance->observer.clock;
+    const System *system = &slot->state->system;
+    Labels labels;
+    labels_of_species(&labels, system);
+    for (size_t s = 0; s < system->species_count; s++) {
+        for (size_t b = 0; b < acceptance->blocks; b++) {
+            const size_t place = b * SPECIES_MOST + s;
+            values[s * acceptance->blocks + b] =
+                acceptance->accepted[place] / acceptance->trials[place];
+        }
+    }
+    const ResultSeries shape = {
+        .unit = "",
+        .about = "Fraction of the trials that were accepted, in blocks of the stage; time is the "
+                 "middle of a block.",
+        .axes = 2,
+        .axis = {
+            {.name = "species", .unit = "", .count = system->species_count, .labels = labels.names},
+            {.name = "time", .unit = clock->unit, .count = acceptance->blocks, .values = times}}};
+    return observer_put_series(&acceptance->observer, "acceptance", &shape, slot->results,
+                               slot->replica, values);
+}
+
+// What a cycle was worth in each block.
+static Status put_cycles(const Slot *slot, const double *times, double *values) {
+    const Acceptance *acceptance = slot->acceptance;
+    const Clock *clock = &acceptance->observer.clock;
+    for (size_t b = 0; b < acceptance->blocks; b++) {
+        double sum = 0;
+        for (size_t s = 0; s < slot->state->system.species_count; s++) {
+            sum += acceptance->trials[b * SPECIES_MOST + s];
+        }
+        values[b] = (double)acceptance->period * clock->tick * (double)slot->state->count / sum;
+    }
+    ResultSeries shape = {
+        .about = "Time that a cycle was worth, in blocks of the stage; time is the middle of a "
+                 "block.",
+        .axes = 1,
+        .axis = {
+            {.name = "time", .unit = clock->unit, .count = acceptance->blocks, .values = times}}};
+    snprintf(shape.unit, sizeof shape.unit, "%s", clock->unit);
+    return observer_put_series(&acceptance->observer, "cycle_time", &shape, slot->results,
+                               slot->replica, values);
+}
+
+static Status put_blocks(const Slot *slot) {
+    const Acceptance *acceptance = slot->acceptance;
+    const double length = (double)acceptance->period * acceptance->observer.clock.tick;
+    double *times = NULL, *values = NULL;
+    Status status = NEW_ARRAY(times, acceptance->blocks);
+    if (status == OK) status = NEW_ARRAY(values, acceptance->blocks * SPECIES_MOST);
+    if (status == OK) {
+        for (size_t b = 0; b < acceptance->blocks; b++) times[b] = ((double)b + 0.5) * length;
+        status = put_acceptances(slot, times, values);
+        if (status == OK && has_clock(acceptance)) status = put_cycles(slot, times, values);
+    }
+    memory_free(times);
+    memory_free(values);
+    return status;
 }
 
 static Status write(const Observer *observer, const State *state, Results *results,
@@ -178,25 +287,20 @@ static Status write(const Observer *observer, const State *state, Results *resul
     for (size_t s = 0; s < state->system.species_count; s++) {
         if (slot.acceptance->all[s].trials > 0) TRY(put_species(&slot, s));
     }
-    return has_clock(slot.acceptance) ? put_clock(&slot) : OK;
-}
-
-static void discard(Observer *observer) {
-    memory_free(observer);
+    if (has_clock(slot.acceptance)) TRY(put_clock(&slot));
+    return put_blocks(&slot);
 }
 
 static size_t memory(const Settings *settings, const System *system, const Clock *clock) {
-    (void)settings;
     (void)system;
-    (void)clock;
-    return sizeof(Acceptance);
+    return sizeof(Acceptance) + 2 * blocks_for(settings, clock) * SPECIES_MOST * sizeof(double);
 }
 
 const ObservableKind observable_acceptance = {
     .name = "acceptance",
     .about = "Acceptance of Monte Carlo, the time that a cycle was worth, and how other clocks "
              "would differ.",
-    .options = {NULL, 0, 0},
+    .options = {rows, sizeof rows / sizeof *rows, sizeof(AcceptanceSettings)},
     .check = check,
     .create = create,
     .next = next,

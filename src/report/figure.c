@@ -91,8 +91,13 @@ static void name_files(char name[FIGURE_NAME], const ResultSeries *series) {
 
 static void put_coordinate(Text *title, const ResultAxis *axis, size_t index) {
     if (title->length > 0) text_put(title, ", ");
-    if (axis->labels) {
+    if (axis->labels && (strcmp(axis->name, "species") == 0 || strcmp(axis->name, "pair") == 0)) {
+        // as the reader wrote it
         text_put(title, axis->labels[index]);
+        return;
+    }
+    if (axis->labels) {
+        notation_name(title, axis->labels[index]);
         return;
     }
     notation_name(title, axis->name);

@@ -110,9 +110,10 @@ static void put_axes(Text *script, const Figure *figure) {
     if (is_log_x(figure)) {
         text_put(script, "set logscale x\nset format x '10^{%T}'\n");
     }
-    if (figure->kind && figure->kind->log_y) {
+    if (figure->kind && figure->kind->log_y)
         text_put(script, "set logscale y\nset format y '10^{%T}'\n");
-    }
+    else
+        text_put(script, "set format y '%g'\n");
     put_x_label(script, figure);
     put_y_label(script, figure);
 }

@@ -5,6 +5,7 @@
 #include "report/html.h"
 #include "report/notation.h"
 #include "report/select.h"
+#include "report/tensor.h"
 
 #include <math.h>
 #include <string.h>
@@ -181,6 +182,7 @@ static void put_stage(Text *page, const Results *results, const char *stage) {
     for (size_t i = 0; i < results->scalar_count; i++) {
         const ResultScalar *scalar = &results->scalars[i];
         if (strcmp(scalar->stage, stage) != 0 || is_reference(scalar->quantity)) continue;
+        if (tensor_has(scalar)) continue;
         put_scalar(page, results, scalar);
     }
 }
@@ -218,6 +220,7 @@ void page_numbers(Text *page, const Results *results) {
              "d √(m/kT).");
     put_sources(page, results);
     text_put(page, "</p>\n");
+    tensor_table(page, results);
 }
 
 static void put_counter(Text *page, const ResultCounter *counter) {

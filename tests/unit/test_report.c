@@ -351,8 +351,8 @@ START_TEST(bodies_are_drawn_as_they_are_seen_along_z) {
     Text picture = {0};
     picture_draw(&picture, results, series);
     const char *words = picture.bytes;
-    const double pixels = 56;                                                 // per d
-    ck_assert_uint_eq(count_of(words, "stroke-linecap=\"round\""), 3);        // of the rod
+    const double pixels = 56;                                           // per d
+    ck_assert_uint_eq(count_of(words, "stroke-linecap=\"round\""), 3);  // of the rod
     ck_assert_ptr_nonnull(strstr(words, "d=\"M168.00 280.00l224.00 ")); // 3 d to 7 d
     char ellipse[128];
     snprintf(ellipse, sizeof ellipse, "rx=\"%.2f\" ry=\"%.2f\"", 0.3 * pixels, 0.6 * pixels);
