@@ -7,12 +7,10 @@
 #include "dmc/clock.h"
 #include "packing/packing.h"
 #include "simulate.h"
-#include "state/equation_of_state.h"
 
 #include <check.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const RngKey KEY = {.seed = 20261125};
@@ -311,6 +309,66 @@ START_TEST(platelets_accept_and_diffuse_as_they_should) {
 }
 END_TEST
 
+// Rods without length, turning all the while, against spheres, which the other kind of chain moves:
+// acceptance, what is accepted of the displacements, and the displacement after whole cycles.
+typedef struct Motion {
+    Mean accepted, squares, displacement;
+} Motion;
+
+static Motion motion_of(ShapeKind shape) {
+    enum { PARTS = 200 };
+    const double step = 0.1;
+    System system = bodies(shape, 500, 0.8);
+    system.species[0].length = 0;
+    State *state = packed(&system);
+    Chain *chain = chain_on(state, &MIXED,
+                            &(Amplitude){.parallel = step, .perpendicular = step, .rotation = 0.3});
+    Motion motion = {0};
+    run(chain, 1e6);
+    chain_publish(chain);
+    for (int part = 0; part < PARTS; part++) {
+        double *then[3], square = 0;
+        for (int a = 0; a < 3; a++) {
+            ck_assert_int_eq(NEW_ARRAY(then[a], state->count), OK);
+            for (size_t i = 0; i < state->count; i++) then[a][i] = state_unfolded(state, a, i);
+        }
+        const MoveTally moves = run(chain, 100 * (double)state->count);
+        chain_publish(chain);
+        for (int a = 0; a < 3; a++) {
+            for (size_t i = 0; i < state->count; i++) {
+                const double x = state_unfolded(state, a, i) - then[a][i];
+                square += x * x / (double)state->count;
+            }
+            memory_free(then[a]);
+        }
+        const double trials = (double)moves.trials;
+        see(&motion.accepted, acceptance(&moves));
+        see(&motion.squares, (moves.parallel + moves.perpendicular) / trials);
+        see(&motion.displacement, square);
+    }
+    chain_free(chain);
+    state_free(state);
+    return motion;
+}
+
+START_TEST(rods_without_length_are_spheres) {
+    const Motion rods = motion_of(SHAPE_SPHEROCYLINDER), spheres = motion_of(SHAPE_SPHERE);
+    const Mean *means[3][2] = {{&rods.accepted, &spheres.accepted},
+                               {&rods.squares, &spheres.squares},
+                               {&rods.displacement, &spheres.displacement}};
+    static const struct {
+        const char *name;
+        double precision;
+    } what[3] = {
+        {"acceptance", 0.002}, {"accepted squares", 0.004}, {"<r^2> after 100 cycles", 0.02}};
+    for (int k = 0; k < 3; k++) {
+        const Estimate known = estimate(means[k][1]);
+        expect_within(what[k].name, estimate(means[k][0]), known.value, known.error, 4,
+                      what[k].precision);
+    }
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("dmc_bodies");
     ADD_CASE(suite, rotations_are_as_long_as_the_paper_says, 3);
@@ -319,5 +377,6 @@ int main(void) {
     ADD_CASE(suite, anisotropic_diffusion_is_not_gaussian, 2);
     ADD_CASE(suite, refused_places_are_the_excluded_volume, 3);
     ADD_CASE(suite, platelets_accept_and_diffuse_as_they_should, 5);
+    ADD_CASE(suite, rods_without_length_are_spheres, 1);
     return run_suite(suite);
 }
