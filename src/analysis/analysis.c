@@ -44,6 +44,10 @@ static Status derive_from(Results *results, const ResultSeries *series, const Sy
         TRY(derive_contact(results, series));
         return derive_theory(results, series->stage, system);
     }
+    if (strcmp(observable, "virtual_compression") == 0) {
+        TRY(derive_compression(results, series, system));
+        return derive_theory(results, series->stage, system);
+    }
     if (strcmp(observable, "pressure") == 0) {
         return derive_theory(results, series->stage, system);
     }

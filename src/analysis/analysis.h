@@ -16,6 +16,7 @@
 //   relaxation_time_P1, relaxation_time_P2, orientation_plateau
 //   free_orientation_correlation, a series                        of orientation_correlation
 //   contact_value_A_B, compressibility_factor_contact             of contact_distribution
+//   compressibility_factor_compression, pressure_compression      of virtual_compression
 //   compressibility_factor_theory, pressure_theory                hard discs and spheres only
 //   collective_scattering_normalised, a series                    of collective_scattering
 //   non_gaussian_parameter, a series     of squared_displacement and quartic_displacement

@@ -3,7 +3,8 @@
 // g(r/d_ij) falls from contact over a distance that shrinks with density. It is fitted by a cubic
 // from contact to where it has fallen to FALLEN of its first value (averaged over replicas; the
 // whole histogram if it does not fall so far): over less than a factor of two a cubic follows an
-// exponential to 1e-4 of it, while every bin in the window helps to beat the noise.
+// exponential to 1e-4 of it, while every bin in the window helps to beat the noise. What pairs meet
+// in a virtual compression is extrapolated likewise.
 #include "analysis/derive.h"
 #include "base/memory.h"
 #include "numerics/fit.h"
@@ -78,4 +79,22 @@ Status derive_contact(Results *results, const ResultSeries *series) {
     }
     memory_free(windows);
     return status;
+}
+
+Status derive_compression(Results *results, const ResultSeries *series, const System *system) {
+    const size_t bins = series->axis[0].count;
+    if (bins < CUBIC + 1) return OK;
+    const size_t end = window(results, series, 0, bins);
+    for (size_t replica = 0; replica < results->replicas; replica++) {
+        double excess = NAN;
+        TRY(fit_value_at_edge(series->values + replica * series->size, end, CUBIC, &excess));
+        TRY(results_put_scalar(results, series->stage, "compressibility_factor_compression", "",
+                               "P V/(N kT) from the pairs that meet in a virtual compression, "
+                               "extrapolated to none by a cubic.",
+                               replica, 1 + excess));
+        TRY(results_put_scalar(results, series->stage, "pressure_compression", "kT/d^3",
+                               "From the pairs that meet in a virtual compression.", replica,
+                               system_number_density(system) * (1 + excess)));
+    }
+    return OK;
 }

@@ -13,6 +13,7 @@ Status derive_free_displacement(Results *results, const ResultSeries *displaceme
                                 const System *system);
 Status derive_free_bodies(Results *results, const ResultSeries *series, const System *system);
 Status derive_contact(Results *results, const ResultSeries *distribution);
+Status derive_compression(Results *results, const ResultSeries *compression, const System *system);
 Status derive_theory(Results *results, const char *stage, const System *system);
 // Likewise.
 Status derive_normalised_scattering(Results *results, const ResultSeries *scattering);

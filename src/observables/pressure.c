@@ -52,7 +52,7 @@ static Status check(const Settings *settings, const System *system, const Clock 
     (void)system;
     if (clock->flies) return OK;
     return status_fail(BAD_DATA, "pressure: Monte Carlo counts no collisions, from which it is "
-                                 "measured; pair_distribution gives it from contact values");
+                                 "measured; virtual_compression gives it from configurations");
 }
 
 static Status create(Observer **out, const Settings *settings, const State *state,
