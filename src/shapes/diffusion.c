@@ -6,33 +6,19 @@
 
 #include "base/constants.h"
 
-#include <gsl/gsl_integration.h>
 #include <math.h>
 
-enum { POINTS = 200 }; // of Gauss and Legendre: eight digits of ln h, whose singularity is weak
-
-static double log_of_radius(double x) {
-    return log1p(-pow(x, 16)) / 16;
-}
-
-// (power + 1) times the integral of x^power ln h(x) from 0 to 1.
-static double mean_log_of_radius(int power) {
-    gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(POINTS);
-    double sum = 0;
-    for (size_t i = 0; i < POINTS; i++) {
-        double x, weight;
-        gsl_integration_glfixed_point(0, 1, i, &x, &weight, table);
-        sum += weight * (power + 1) * pow(x, power) * log_of_radius(x);
-    }
-    gsl_integration_glfixed_table_free(table);
-    return sum;
-}
+// (p + 1) times the integral of x^p ln h(x) from 0 to 1, for p = 0 and 2. The series of ln h sums
+// to
+// -(psi(1 + (p + 1)/16) + gamma)/16, with the digamma function and Euler's constant.
+static const double MEAN_LOG_FOR_TRANSLATION = -0.0061476359275892809;
+static const double MEAN_LOG_FOR_ROTATION = -0.0170135634288520252;
 
 static Diffusion rod_diffusion(const Body *body) {
     const double length = body->length + body->diameter;
     const double slender = log(4 * length / body->diameter);
-    const double translation = slender - mean_log_of_radius(0);
-    const double rotation = slender - mean_log_of_radius(2);
+    const double translation = slender - MEAN_LOG_FOR_TRANSLATION;
+    const double rotation = slender - MEAN_LOG_FOR_ROTATION;
     return (Diffusion){.parallel = (translation - 1.5) / (2 * PI * length),
                        .perpendicular = (translation - 0.5) / (4 * PI * length),
                        .rotational = 3 * (rotation - 11.0 / 6) / (PI * length * length * length)};
