@@ -175,7 +175,7 @@ END_TEST
 // The first of some systems in which it can be measured.
 static System system_with(const ObservableKind *kind, int64_t particles) {
     const System systems[] = {system_of(2, particles, 0.4, 2), oriented_system(particles, 2),
-                              soft_system(particles, 36)};
+                              oriented_system(particles, 1), soft_system(particles, 36)};
     Clock clock = clock_of(600, 5);
     const Settings settings = settings_of(&kind->options);
     for (size_t i = 0; i < 2 * sizeof systems / sizeof *systems; i++) {
