@@ -40,15 +40,18 @@ const FigureKind *figure_kind_of(const ResultSeries *series) {
     return NULL;
 }
 
-// Along time if there is one, else along the longest axis of numbers; NO_AXIS if there is none.
+// Along the axis that its kind says, or time if there is one, else along the longest axis of
+// numbers; NO_AXIS if there is none.
 enum { NO_AXIS = RESULT_AXES };
 
 static size_t axis_to_draw_along(const ResultSeries *series) {
+    const FigureKind *kind = figure_kind_of(series);
+    const char *wanted = kind && kind->along ? kind->along : "time";
     size_t longest = NO_AXIS;
     for (size_t i = 0; i < series->axes; i++) {
         const ResultAxis *axis = &series->axis[i];
         if (!axis->values || axis->count < 2) continue;
-        if (strcmp(axis->name, "time") == 0) return i;
+        if (strcmp(axis->name, wanted) == 0) return i;
         if (longest == NO_AXIS || axis->count > series->axis[longest].count) longest = i;
     }
     return longest;
@@ -69,6 +72,8 @@ static bool has_numbers(const Results *results, const ResultSeries *series) {
 }
 
 bool figure_exists(const Results *results, const ResultSeries *series) {
+    const FigureKind *kind = figure_kind_of(series);
+    if (kind && kind->aside) return false;
     if (axis_to_draw_along(series) == NO_AXIS || stands_behind_another(series)) return false;
     return has_numbers(results, series);
 }

@@ -11,7 +11,9 @@
 // How an observable is drawn. Whatever has no row in figures.def is drawn by the plain rule.
 typedef struct FigureKind {
     const char *observable;
-    const char *axis; // that the series must have; NULL: any
+    const char *axis;  // that the series must have; NULL: any
+    bool aside;        // not drawn: it is there for others that are made of it
+    const char *along; // the axis along x; NULL: time, or the longest
     const char *title;
     const char *x, *y; // symbols
     bool log_x, log_y;

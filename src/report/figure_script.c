@@ -118,6 +118,16 @@ static void put_axes(Text *script, const Figure *figure) {
     put_y_label(script, figure);
 }
 
+// The lower edge of a band. On a logarithmic axis a tenth of the value is low enough: one as large
+// as its error would otherwise take the axis down with it.
+static void put_lower(Text *script, const Figure *figure, const char *value, const char *error) {
+    if (figure->kind && figure->kind->log_y)
+        text_add(script, "((%s) < 0.9*(%s) ? (%s) - (%s) : 0.1*(%s))", error, value, value, error,
+                 value);
+    else
+        text_add(script, "(%s - (%s))", value, error);
+}
+
 // Marks with bars; where there are too many points for them, a line in a band. A sum among marks is
 // a plain line, not to hide its parts.
 static void put_curve(Text *script, const Figure *figure, size_t curve, const char *value,
@@ -126,10 +136,10 @@ static void put_curve(Text *script, const Figure *figure, size_t curve, const ch
     const size_t look = look_of(figure, curve);
     if (curve > 0) text_put(script, ", \\\n");
     if (has_errors && dense) {
-        text_add(script,
-                 "  data using 1:(%s - (%s)):(%s + (%s)) with filledcurves linetype %zu notitle, "
-                 "\\\n",
-                 value, error, value, error, look);
+        text_put(script, "  data using 1:");
+        put_lower(script, figure, value, error);
+        text_add(script, ":(%s + (%s)) with filledcurves linetype %zu notitle, \\\n", value, error,
+                 look);
     }
     const bool marks = !dense && !is_sum(figure, curve);
     text_add(script, "  data using 1:(%s)", value);

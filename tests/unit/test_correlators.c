@@ -396,7 +396,7 @@ START_TEST(van_hove_function_agrees_with_its_slow_twin) {
     set_number(&settings, &kind->options, "distances.spacing", 0.25);
     if (_i & 2) set_list(&settings, kind, "waiting_times", WAITING_TIMES);
     Walked w = walked(kind, &settings, dimension);
-    const Lags lags = lags_with(&w, 2, 10, _i & 2);
+    const Lags lags = lags_with(&w, 1, 10, _i & 2);
     const ResultSeries *g = series_of(w.results, "quiescent", "van_hove");
     const size_t bins = 12, row_count = lags_rows(&lags);
     ck_assert_uint_eq(g->size, (WALK_SPECIES + 1) * row_count * bins);
