@@ -28,17 +28,48 @@ static const Node *nth(const Node *parent, size_t index) {
     return node;
 }
 
-// A module's own sentence, at the key that it begins with if that stands in `node` or the system,
-// else at `node`.
+static const Node *species_map(const Node *root) {
+    return place(tree_find(root, "system"), "species", NULL);
+}
+
+// The species that the sentence names in quotes, "... species 'NAME' ..."; NULL if none.
+static const Node *species_named(const Node *root, const char *sentence) {
+    static const char before[] = "species '";
+    const char *begin = strstr(sentence, before);
+    if (!begin) return NULL;
+    begin += sizeof before - 1;
+    const size_t length = strcspn(begin, "'");
+    char name[NAME_SIZE] = "";
+    if (length >= NAME_SIZE) return NULL;
+    memcpy(name, begin, length);
+    return tree_find(species_map(root), name);
+}
+
+// The key that the sentence begins with, as in "KEY = 3 is ..." or "KEY.PART = 3 is ...".
+static void key_of(char key[NAME_SIZE], const char *sentence) {
+    const char *equals = strstr(sentence, " = ");
+    const size_t length = strcspn(sentence, ". ");
+    key[0] = '\0';
+    if (!equals || sentence + length > equals || length >= NAME_SIZE) return;
+    memcpy(key, sentence, length);
+    key[length] = '\0';
+}
+
+// A module's own sentence, at the key that it begins with if that stands in `node`, in the species
+// that it names or in the system; else at that species, else at `node`.
 static Status placed(const Node *root, const Node *node, Status status) {
     if (status != BAD_DATA) return status;
-    char key[NAME_SIZE] = "";
-    const char *sentence = status_sentence(), *equals = strstr(sentence, " = ");
-    if (equals && equals - sentence < NAME_SIZE) memcpy(key, sentence, (size_t)(equals - sentence));
-    const Node *system = tree_find(root, "system");
-    const Node *named = tree_find(node, key);
-    if (!named) named = tree_find(system, key);
-    return tree_fail(named ? named : node, "%s", sentence);
+    char key[NAME_SIZE];
+    const char *sentence = status_sentence();
+    key_of(key, sentence);
+    const Node *species = species_named(root, sentence);
+    const bool of_species = strncmp(sentence, "species '", strlen("species '")) == 0;
+    const Node *places[] = {tree_find(node, key), species ? tree_find(species, key) : NULL,
+                            tree_find(tree_find(root, "system"), key),
+                            of_species || key[0] ? species : NULL, node};
+    size_t first = 0;
+    while (!places[first]) first++;
+    return tree_fail(places[first], "%s", sentence);
 }
 
 // A distribution without a width, or a width without a distribution, would be equal sizes unseen.
@@ -56,6 +87,27 @@ static Status judge_spread(const Node *node, const Species *species) {
                      spread_names[species->spread], spread_names[species->spread]);
 }
 
+// A size that the shape has not would be left out unseen; one that it must have is not guessed. A
+// plan.yaml has all keys, with their defaults.
+static Status judge_sizes(const Node *node, const Species *species) {
+    static const double NOT_GIVEN = 36;
+    const Node *length = tree_find(node, "length"), *exponent = tree_find(node, "exponent");
+    const char *shape = shape_names[species->shape];
+    if (species->length > 0 && species->shape != SHAPE_SPHEROCYLINDER)
+        return tree_fail(length, "length = %g is that of a spherocylinder; a %s has none",
+                         species->length, shape);
+    if (!length && species->shape == SHAPE_SPHEROCYLINDER)
+        return tree_fail(place(node, "shape", NULL),
+                         "a spherocylinder needs its length: that of the cylinder without caps, in "
+                         "d, such as length: 5");
+    if (species->exponent != NOT_GIVEN && species->shape != SHAPE_SOFT_SPHERE)
+        return tree_fail(exponent, "exponent = %g is that of a soft-sphere; a %s is hard",
+                         species->exponent, shape);
+    if (species->exponent != floor(species->exponent))
+        return tree_fail(exponent, "exponent = %g must be a whole number", species->exponent);
+    return OK;
+}
+
 static Status judge_species(const Node *map, const System *system) {
     double sum = 0;
     size_t counts[SPECIES_MOST];
@@ -66,6 +118,7 @@ static Status judge_species(const Node *map, const System *system) {
             return tree_fail(place(nth(map, s), "shape", NULL),
                              "shape = %s lives in %d dimensions, but dimension = %d",
                              shape_names[shape], shape_dimension(shape), (int)system->dimension);
+        TRY(judge_sizes(nth(map, s), &system->species[s]));
         TRY(judge_spread(nth(map, s), &system->species[s]));
     }
     if (!(fabs(sum - 1) <= FRACTIONS_OFF))
@@ -111,6 +164,7 @@ static double densest_packing(const System *system) {
 }
 
 static const char *what_packs(const System *system) {
+    if (system_is_oriented(system)) return "bodies of these sizes";
     if (system->dimension == 2)
         return size_ratio(system) == 1 ? "equal discs" : "discs of these sizes";
     return size_ratio(system) == 1 ? "equal spheres" : "spheres of these sizes";
@@ -124,6 +178,9 @@ static Status judge_density(const Node *root, const Node *map, const System *sys
     if (!fraction && !density)
         return tree_fail(map, "system needs packing_fraction or number_density");
     const Node *given = fraction ? fraction : density;
+    if (fraction && !(system_mean_volume(system) > 0))
+        return tree_fail(fraction, "packing_fraction: these particles have no volume; give "
+                                   "number_density, in d^-3");
     const double value = fraction ? system->packing_fraction : system->number_density;
     if (!(value > 0)) return tree_fail(given, "%s = %g must be above 0", given->key, value);
     const double packing = system_packing_fraction(system), densest = densest_packing(system);
@@ -157,11 +214,15 @@ static Status judge_stage_name(const Node *protocol, const Plan *plan, size_t st
 static Status judge_method(const Node *root, const Node *node, const Plan *plan,
                            const Stage *stage) {
     static const double TICKS_MOST = 1e18; // plan_clock has room for more
+    static const double ROUNDING = 1e-6;
     const Node *own = tree_find(node, "dynamics");
     const PropagatorKind *kind = stage->dynamics.kind;
     TRY(placed(root, own ? own : tree_find(root, "dynamics"),
                kind->check(&stage->dynamics.settings, &plan->system)));
     const double tick = kind->tick(&stage->dynamics.settings, &plan->system);
+    if (stage->time / tick < 1 - ROUNDING)
+        return tree_fail(place(node, "time", NULL), "time = %g %s is less than a single step of %g",
+                         stage->time, kind->time_unit, tick);
     if (stage->time / tick < TICKS_MOST) return OK;
     return tree_fail(place(node, "time", NULL), "time = %g %s is more than %g steps of %g",
                      stage->time, kind->time_unit, TICKS_MOST, tick);
@@ -196,8 +257,25 @@ static Status judge_output(const Node *root, const Plan *plan) {
                      recorded, names[nearest < plan->stage_count ? nearest : 0]);
 }
 
+// Where nothing flies, a mass would be without effect.
+static Status judge_masses(const Node *root, const Plan *plan) {
+    for (size_t s = 0; s < plan->stage_count; s++) {
+        if (plan->stages[s].dynamics.kind->flies) return OK;
+    }
+    for (size_t s = 0; s < plan->system.species_count; s++) {
+        const Node *mass = tree_find(nth(species_map(root), s), "mass");
+        if (!mass || plan->system.species[s].mass == 1) continue;
+        return tree_fail(mass,
+                         "mass = %g has no effect: particles of Monte Carlo have no "
+                         "velocities; diffusion: {parallel: ...} says how fast they are",
+                         plan->system.species[s].mass);
+    }
+    return OK;
+}
+
 Status judge_plan(const Node *root, const Plan *plan) {
     TRY(judge_system(root, &plan->system));
+    TRY(judge_masses(root, plan));
     for (size_t s = 0; s < plan->stage_count; s++) TRY(judge_stage(root, plan, s));
     TRY(judge_output(root, plan));
     return placed(root, root, plan_check(plan));

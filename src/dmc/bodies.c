@@ -13,19 +13,20 @@
 static Status check_pair(const Species *a, const Species *b) {
     if (overlap_is_known((ShapeKind)a->shape, (ShapeKind)b->shape)) return OK;
     return status_fail(BAD_DATA,
-                       "Monte Carlo of bodies with an axis does not know how a %s (%s) and a %s "
-                       "(%s) overlap: spherocylinders with spheres or platelets with spheres",
-                       shape_names[a->shape], a->name, shape_names[b->shape], b->name);
+                       "species '%s' and '%s': how a %s and a %s overlap is not known; mix "
+                       "spherocylinders with spheres, or platelets with spheres",
+                       a->name, b->name, shape_names[a->shape], shape_names[b->shape]);
 }
 
 // Beyond half an edge a body could meet two images of another.
 static Status check_reach(const Box *box, double reach) {
     for (int a = 0; a < 3; a++) {
         if (2 * reach < box->edge[a]) continue;
-        return status_fail(BAD_DATA,
-                           "the longest body, %g d, must be shorter than half of every edge of the "
-                           "box, %g d: more particles, please",
-                           reach, box->edge[a]);
+        return status_fail(
+            BAD_DATA,
+            "the longest body, %g d, is not shorter than half of an edge of the box, "
+            "%g d, so that it could meet two images of another; take more particles",
+            reach, box->edge[a]);
     }
     return OK;
 }
