@@ -6,6 +6,7 @@
 #include "base/constants.h"
 #include "base/nearest.h"
 #include "base/number.h"
+#include "config/options.h"
 #include "packing/packing.h"
 
 #include <math.h>
@@ -90,7 +91,7 @@ static Status judge_spread(const Node *node, const Species *species) {
 // A size that the shape has not would be left out unseen; one that it must have is not guessed. A
 // plan.yaml has all keys, with their defaults.
 static Status judge_sizes(const Node *node, const Species *species) {
-    static const double NOT_GIVEN = 36;
+    const double not_given = option_named(&species_options, "exponent")->fallback;
     const Node *length = tree_find(node, "length"), *exponent = tree_find(node, "exponent");
     const char *shape = shape_names[species->shape];
     if (species->length > 0 && species->shape != SHAPE_SPHEROCYLINDER)
@@ -100,7 +101,7 @@ static Status judge_sizes(const Node *node, const Species *species) {
         return tree_fail(place(node, "shape", NULL),
                          "a spherocylinder needs its length: that of the cylinder without caps, in "
                          "d, such as length: 5");
-    if (species->exponent != NOT_GIVEN && species->shape != SHAPE_SOFT_SPHERE)
+    if (species->exponent != not_given && species->shape != SHAPE_SOFT_SPHERE)
         return tree_fail(exponent, "exponent = %g is that of a soft-sphere; a %s is hard",
                          species->exponent, shape);
     if (species->exponent != floor(species->exponent))
