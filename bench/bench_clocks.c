@@ -14,7 +14,7 @@
 
 #include <math.h>
 
-enum { PARTICLES = 500, BLOCKS = 16, LAGS = 3, CALIBRATION = 1000, SETTLE_CYCLES = 10000 };
+enum { PARTICLES = 500, BLOCKS = 20, LAGS = 3, CALIBRATION = 1000, SETTLE_CYCLES = 10000 };
 static const RngKey KEY = {.seed = 1};
 static const double LAG = 1, ACCURACY = 0.01; // in d^2/D0
 static const double SETTLE_STEP = 0.055, WINDOW = 0.01;
@@ -177,7 +177,7 @@ static void report(Way way, int k, const Walk *walk, double time) {
     bench_result(name, walk->seconds * 1000 / PARTICLES, "s");
     snprintf(name, sizeof name, "clocks %s %g: D_L", WAY[way], STEP[way][k]);
     bench_result(name, walk->diffusion, "D0");
-    snprintf(name, sizeof name, "clocks %s %g: D_L to 1 %%, as it is", WAY[way], STEP[way][k]);
+    snprintf(name, sizeof name, "clocks %s %g: D_L to 1 %% as it is", WAY[way], STEP[way][k]);
     bench_result(name, walk->seconds * time, "s");
 }
 
