@@ -22,6 +22,7 @@ static Status allocate(Engine *engine) {
     const size_t count = engine->count, slots = count + 1;
     TRY(NEW_ARRAY(engine->rows, slots * engine->row));
     TRY(NEW_ARRAY(engine->spare_rows, slots * engine->row));
+    TRY(NEW_ARRAY(engine->sketch, slots * engine->row));
     TRY(NEW_ARRAY(engine->id, slots + BLOCK));
     TRY(NEW_ARRAY(engine->spare_id, slots + BLOCK));
     TRY(NEW_ARRAY(engine->radius, slots + BLOCK));
@@ -29,12 +30,14 @@ static Status allocate(Engine *engine) {
     TRY(NEW_ARRAY(engine->thermal, slots + BLOCK));
     TRY(NEW_ARRAY(engine->thermal_of, count));
     TRY(NEW_ARRAY(engine->stamp, slots));
+    TRY(NEW_ARRAY(engine->normals, (count + RNG_ROOM) * engine->row / 2));
     for (int a = 0; a < engine->dimension; a++) {
         TRY(NEW_ARRAY(engine->column[a], slots + BLOCK));
         TRY(NEW_ARRAY(engine->snapshot.image[a], count));
     }
     for (engine->buckets = 64; engine->buckets < count / 4;) engine->buckets *= 2;
     engine->buckets_per_time = engine->buckets / engine->settings.window;
+    engine->half_per_window = 0.5 / engine->settings.window;
     TRY(NEW_ARRAY(engine->bucket, engine->buckets));
     engine->event_capacity = (uint32_t)(count + 64);
     TRY(NEW_ARRAY(engine->events, engine->event_capacity));
@@ -62,6 +65,11 @@ static void take_in(Engine *engine) {
         engine->thermal_of[i] = 1 / sqrt(state->mass[i]);
         engine->fastest = fmax(engine->fastest, engine->thermal_of[i]);
     }
+    // Rounding of places, 2^-24 of the longest edge, in both factors of a product of separations
+    // not much above the largest diameter; and of the product itself.
+    double longest = 0;
+    for (int a = 0; a < engine->dimension; a++) longest = fmax(longest, engine->edge[a]);
+    engine->sketch_error = (float)(1e-6 * engine->largest * (longest + 2 * engine->largest));
     const bool diffusive = engine->settings.redraw && engine->settings.windows_per_step == 1;
     engine->margin = (diffusive ? MARGIN_DIFFUSIVE : MARGIN_BALLISTIC) * engine->fastest *
                      engine->settings.window;
@@ -113,6 +121,7 @@ void engine_free(Engine *engine) {
     if (!engine) return;
     memory_free(engine->rows);
     memory_free(engine->spare_rows);
+    memory_free(engine->sketch);
     memory_free(engine->id);
     memory_free(engine->spare_id);
     memory_free(engine->radius);
@@ -120,6 +129,7 @@ void engine_free(Engine *engine) {
     memory_free(engine->thermal);
     memory_free(engine->thermal_of);
     memory_free(engine->stamp);
+    memory_free(engine->normals);
     for (int a = 0; a < 3; a++) {
         memory_free(engine->column[a]);
         memory_free(engine->snapshot.image[a]);
@@ -143,10 +153,11 @@ void engine_record(Engine *engine, CollisionLog *log) {
     engine->log = log;
 }
 
-static void redraw(Engine *engine) {
-    rng_normals(engine->key, engine->settings.stream, (uint64_t)engine->state->step, engine->id,
-                engine->count, engine->dimension, engine->column);
-    engine->kernel->redraw(engine);
+// Normal numbers for the velocities of the window that is opened next, if that begins a step.
+static void draw(Engine *engine, int64_t step) {
+    engine->redraw = 1;
+    rng_normal_rows(engine->key, engine->settings.stream, (uint64_t)step, engine->id, engine->count,
+                    engine->dimension, engine->normals);
 }
 
 static void snapshot_take(Engine *engine) {
@@ -244,8 +255,12 @@ static Status keep_list(Engine *engine) {
     return OK;
 }
 
+// A window, and what the next one begins with.
 static void run_kernel(Engine *engine) {
-    if (engine->window == 0 && engine->settings.redraw) redraw(engine);
+    const bool ends_step = engine->window + 1 == engine->settings.windows_per_step;
+    engine->redraw = 0;
+    if (engine->settings.redraw && ends_step && engine->left > 1)
+        draw(engine, engine->state->step + 1);
     if (engine->growth != 0 || engine->scale != 1)
         engine->kernel->run_growing(engine);
     else
@@ -272,6 +287,9 @@ Status engine_advance(Engine *engine, int64_t windows, Tally *tally) {
     engine->tally = *tally;
     engine->left = windows;
     if (engine->scale != engine->list.scale) TRY(list_build(engine));
+    engine->redraw = 0;
+    if (engine->settings.redraw && engine->window == 0) draw(engine, engine->state->step);
+    engine->kernel->open_window(engine);
     snapshot_take(engine);
     while (engine->left > 0) TRY(one_window(engine));
     *tally = engine->tally;
@@ -324,11 +342,11 @@ size_t engine_memory(const System *system) {
     // Typical of dense fluids: pairs in the half list, neighbours padded to whole blocks.
     static const double pairs[2] = {3.5, 6.5}, neighbours[2] = {8, 16};
     const int three = system->dimension == 3;
-    const double rows = (three ? ROW_3D : ROW_2D) * 2 * sizeof(double);
+    const double rows = (three ? ROW_3D : ROW_2D) * (2 * sizeof(double) + 1.5 * sizeof(float));
     const double arrays = (2 * ANCHOR + 4 + (double)system->dimension) * sizeof(double) +
                           (7 + (double)system->dimension) * sizeof(uint32_t) + sizeof(Event);
-    const double lists = pairs[three] * (5 * sizeof(uint32_t) + 2 * sizeof(double)) +
-                         neighbours[three] * (sizeof(uint32_t) + sizeof(double));
+    const double lists = pairs[three] * (6 * sizeof(uint32_t) + 2 * sizeof(float)) +
+                         neighbours[three] * (sizeof(uint32_t) + sizeof(float));
     const double spare = 1.125; // room that lists grow by
     return (size_t)((double)system->particles * (rows + arrays + spare * lists)) + sizeof(Engine);
 }

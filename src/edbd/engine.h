@@ -9,10 +9,11 @@
 #include "edbd/edbd.h"
 
 enum {
-    ROW_2D = 4, // x y vx vy
-    ROW_3D = 8, // x y z 0 vx vy vz 0
-    ANCHOR = 4, // x y z 0
-    BLOCK = 8,  // lists are padded to whole blocks
+    ROW_2D = 4,     // x y vx vy
+    ROW_3D = 8,     // x y z 0 vx vy vz 0
+    ANCHOR = 4,     // x y z 0
+    BLOCK = 16,     // the half list is padded to a multiple of this,
+    HALF_BLOCK = 8, // the neighbours of each particle to one of this
 };
 static const uint32_t NO_EVENT = UINT32_MAX;
 
@@ -40,21 +41,21 @@ typedef struct NeighbourList {
 
     size_t pairs; // padded to whole blocks with a pair that never meets
     size_t pair_capacity;
-    uint32_t *first, *second; // [pairs] where their rows begin
-    double *pair_contact2;    // [pairs] square of the contact distance at scale 1
-    uint32_t *hits;           // [pairs] room for those that meet in a window
+    uint32_t *first, *second;         // [pairs] where their rows begin
+    float *pair_contact2;             // [pairs] square of the contact distance at scale 1
+    uint32_t *hit_first, *hit_second; // [pairs] room for those that may meet in a window
 
     bool pruned;
     size_t near; // the half list that is used, borrowed: the pruned one or all of it
     uint32_t *near_first, *near_second;
-    double *near_contact2;
+    float *near_contact2;
     uint32_t *pruned_first, *pruned_second; // [pairs]
-    double *pruned_contact2;                // [pairs]
+    float *pruned_contact2;                 // [pairs]
 
-    uint32_t *start; // [slots + 1], multiples of BLOCK
+    uint32_t *start; // [slots + 1], multiples of HALF_BLOCK; the one after the last is of nobodies
     size_t neighbour_capacity;
     uint32_t *neighbour; // [start[slots]] where their rows begin
-    double *contact2;    // [start[slots]]
+    float *contact2;     // [start[slots]]
 } NeighbourList;
 
 // What a window must not pass over: the state at the last moment known to be right.
@@ -88,12 +89,15 @@ struct Engine {
     int64_t window, left; // windows done in this step; still to do in this call
 
     double *rows;       // [count + 1][row]
+    float *sketch;      // [count + 1][row] (edbd/sketch.h)
+    float sketch_error; // most that it errs in a square of a length
     double *spare_rows; // the same: those of the snapshot, and where a new order is made
     uint32_t *id;       // [count] of each slot
     uint32_t *spare_id;
     double *radius;     // [count]
     double *mass;       // [count]
-    double *column[3];  // [count + BLOCK] scratch: normal numbers; positions while listing
+    float *normals;     // [count + RNG_ROOM][2 or 4] of each, in rows
+    double *column[3];  // [count + BLOCK] scratch: positions while listing
     double *thermal;    // [count] 1/sqrt(mass)
     uint32_t *stamp;    // [count + 1] collisions of each in this window
     double *thermal_of; // [count] the same, by id
@@ -108,11 +112,12 @@ struct Engine {
 
     Event *events; // [event_capacity]
     uint32_t event_capacity, events_used, free_event;
-    uint32_t *bucket; // [buckets] first event of each slice of the window
-    uint32_t buckets; // a power of two
-    double buckets_per_time;
+    uint32_t *bucket;                         // [buckets] first event of each slice of the window
+    uint32_t buckets;                         // a power of two
+    double buckets_per_time, half_per_window; // 1/(2 window)
 
     int64_t careful; // windows still to be done with a new list each
+    int redraw;      // the window that is opened begins with velocities from `normals`
     int outgrown;    // the events did not fit
     int hung;        // a particle collided more often than anything physical
 
@@ -125,7 +130,7 @@ struct Engine {
 struct EngineKernel {
     void (*run_window)(Engine *engine);  // predict, collide, move, fold
     void (*run_growing)(Engine *engine); // the same with growing diameters
-    void (*redraw)(Engine *engine);      // velocities from the normal numbers in `column`
+    void (*open_window)(Engine *engine); // what comes after the move: velocities, sketch
     void (*pair_cell)(Engine *engine, size_t cell, const Span *spans, int count);
     void (*prune)(Engine *engine); // the half list to the near pairs
 };

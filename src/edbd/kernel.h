@@ -9,61 +9,65 @@
 #include "edbd/engine.h"
 #include "edbd/lanes.h"
 #include "edbd/list_kernel.h"
+#include "edbd/sketch.h"
 
 #include <string.h>
 
 static const uint32_t COLLISIONS_MOST = 1000; // of one particle in one window: it hangs
 static const double CONTACT_DEPTH = 1e-12;    // deeper overlaps at a collision are counted
 
-// The gap of a pair as time goes on: r^2 - contact^2 = c + 2 b t + a t^2.
-typedef struct Gap {
-    Lanes a, b, c;
-} Gap;
-
 // Diameters at time s of the window: scale(s) = scale + rate s.
 typedef struct Growth {
     double scale, rate;
 } Growth;
 
-KERNEL void take_nearest(const int dimension, const Engine *engine, Lanes r[3]) {
-    for (int a = 0; a < dimension; a++) {
-        r[a] = lanes_nearest(r[a], lanes_all(engine->edge[a]), lanes_all(engine->edge[a] / 2));
-    }
+// The gap of a pair as time goes on: r^2 - contact^2 = c + 2 b t + a t^2.
+typedef struct Gap {
+    double a, b, c;
+} Gap;
+
+KERNEL double nearest(double r, double edge) {
+    return r > edge / 2 ? r - edge : r < -edge / 2 ? r + edge : r;
 }
 
-// From separations at time s.
-KERNEL Gap gap_of(const int dimension, const int growing, const Lanes r[3], const Lanes v[3],
-                  Lanes contact2, double s, Growth growth) {
-    Lanes r2 = {0}, rv = {0}, v2 = {0};
-    for (int a = 0; a < dimension; a++) {
-        r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
-        rv = a == 0 ? r[a] * v[a] : rv + r[a] * v[a];
-        v2 = a == 0 ? v[a] * v[a] : v2 + v[a] * v[a];
+// From time s on.
+KERNEL Gap gap_of(const int dimension, const int growing, const Engine *engine, uint32_t i,
+                  uint32_t j, double s, Growth growth) {
+    const size_t row = dimension == 2 ? ROW_2D : ROW_3D, velocity = row / 2;
+    const double *row_i = engine->rows + row * i, *row_j = engine->rows + row * j;
+    double r2 = 0, rv = 0, v2 = 0;
+    for (size_t a = 0; a < (size_t)dimension; a++) {
+        const double v = row_i[velocity + a] - row_j[velocity + a];
+        const double r = nearest(row_i[a] - row_j[a], engine->edge[a]) + v * s;
+        r2 = a == 0 ? r * r : r2 + r * r;
+        rv = a == 0 ? r * v : rv + r * v;
+        v2 = a == 0 ? v * v : v2 + v * v;
     }
+    const double contact = engine->radius[i] + engine->radius[j], contact2 = contact * contact;
     if (!growing) return (Gap){.a = v2, .b = rv, .c = r2 - contact2};
     const double scale = growth.scale + growth.rate * s;
-    return (Gap){.a = v2 - contact2 * lanes_all(growth.rate * growth.rate),
-                 .b = rv - contact2 * lanes_all(scale * growth.rate),
-                 .c = r2 - contact2 * lanes_all(scale * scale)};
+    return (Gap){.a = v2 - contact2 * (growth.rate * growth.rate),
+                 .b = rv - contact2 * (scale * growth.rate),
+                 .c = r2 - contact2 * (scale * scale)};
 }
 
-// Pairs that meet within `left`: approaching, and either overlapping by then or having passed
+// Does it close within `left`? Pairs that approach, and either overlap by then or have passed
 // through a real contact before. A pair that overlaps already and approaches meets now; one that
 // overlaps and recedes is left to do so. With growth a pair may also meet without approaching.
-KERNEL Where gap_closes(const int growing, Gap gap, double left) {
-    const Lanes zero = {0}, w = lanes_all(left);
-    const Lanes end = gap.b + gap.a * w;
-    const Where approaching = lanes_less(gap.b, zero);
-    const Where overlaps = lanes_less(gap.c + w * (gap.b + end), zero);
-    const Where turned = lanes_less(zero, end) & lanes_less(gap.a * gap.c, gap.b * gap.b);
+KERNEL int gap_closes(const int growing, Gap gap, double left) {
+    const double end = gap.b + gap.a * left;
+    const int approaching = gap.b < 0;
+    const int overlaps = gap.c + left * (gap.b + end) < 0;
+    const int turned = (0 < end) & (gap.a * gap.c < gap.b * gap.b);
     if (!growing) return approaching & (overlaps | turned);
-    return (approaching | lanes_less(zero, gap.c)) & (overlaps | (turned & approaching));
+    return (approaching | (0 < gap.c)) & (overlaps | (turned & approaching));
 }
 
 // How long until a closing gap is closed; this form of the root does not cancel.
-KERNEL Lanes gap_time(Gap gap) {
-    const Lanes root = lanes_sqrt(lanes_positive(gap.b * gap.b - gap.a * gap.c));
-    return lanes_positive(gap.c / (root - gap.b));
+KERNEL double gap_time(Gap gap) {
+    const double square = gap.b * gap.b - gap.a * gap.c;
+    const double time = gap.c / (sqrt(square > 0 ? square : 0) - gap.b);
+    return time > 0 ? time : 0;
 }
 
 KERNEL uint32_t *bucket_of(Engine *engine, double time) {
@@ -98,82 +102,61 @@ KERNEL void event_drop(Engine *engine, uint32_t *link) {
     engine->free_event = number;
 }
 
-KERNEL Gap pair_gap(const int dimension, const int growing, const Engine *engine,
-                    const uint32_t *first, const uint32_t *second, Lanes contact2, Growth growth) {
-    const double *i[LANES], *j[LANES];
-    for (int k = 0; k < LANES; k++) {
-        i[k] = engine->rows + first[k];
-        j[k] = engine->rows + second[k];
-    }
-    Lanes r[3], v[3];
-    lanes_separate(dimension, i, j, r, v);
-    take_nearest(dimension, engine, r);
-    return gap_of(dimension, growing, r, v, contact2, 0, growth);
+// A pair becomes an event if it meets between time s and the end of the window.
+KERNEL void predict(const int dimension, const int growing, Engine *engine, uint32_t i, uint32_t j,
+                    double s, Growth growth) {
+    const Gap gap = gap_of(dimension, growing, engine, i, j, s, growth);
+    if (!gap_closes(growing, gap, engine->settings.window - s)) return;
+    event_put(engine, s + gap_time(gap), i, j);
 }
 
-// Which pairs of the list meet in this window; returns how many are in list->hits.
-KERNEL size_t find_hits(const int dimension, const int growing, Engine *engine, Growth growth) {
-    const NeighbourList *list = &engine->list;
-    size_t hits = 0;
-    for (size_t p = 0; p < list->near; p += LANES) {
-        const Gap gap =
-            pair_gap(dimension, growing, engine, list->near_first + p, list->near_second + p,
-                     lanes_load(list->near_contact2 + p), growth);
-        const unsigned bits = lanes_bits(gap_closes(growing, gap, engine->settings.window));
-        lanes_pack_numbers(list->hits + hits, bits, (uint32_t)p, 1);
-        hits += (unsigned)__builtin_popcount(bits);
-    }
-    return hits;
-}
-
-KERNEL void predict_all(const int dimension, const int growing, Engine *engine, Growth growth) {
+KERNEL void predict_all(const int dimension, const int growing, Engine *engine, Growth growth,
+                        const Sieve *sieve) {
     const NeighbourList *list = &engine->list;
     const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D;
-    const size_t hits = find_hits(dimension, growing, engine, growth);
-    for (size_t k = 0; k < LANES; k++) list->hits[hits + k] = 0; // fills the last LANES
-    for (size_t h = 0; h < hits; h += LANES) {
-        uint32_t first[LANES], second[LANES];
-        double contact2[LANES];
-        for (size_t k = 0; k < LANES; k++) {
-            const uint32_t pair = list->hits[h + k];
-            first[k] = list->near_first[pair];
-            second[k] = list->near_second[pair];
-            contact2[k] = list->near_contact2[pair];
-        }
-        double time[LANES];
-        const Gap gap =
-            pair_gap(dimension, growing, engine, first, second, lanes_load_at(contact2), growth);
-        lanes_store_at(time, gap_time(gap));
-        const size_t lanes = hits - h < LANES ? hits - h : LANES;
-        for (size_t k = 0; k < lanes; k++) {
-            event_put(engine, time[k], first[k] / row, second[k] / row);
-        }
+    size_t hits = 0;
+    for (size_t p = 0; p < list->near; p += WIDE) {
+        const uint32_t *first = list->near_first + p, *second = list->near_second + p;
+        const Rows i = {engine->sketch, {first, first + HALF}};
+        const Rows j = {engine->sketch, {second, second + HALF}};
+        const Wides contact2 = *(const Wides *)(list->near_contact2 + p);
+        const unsigned bits = may_meet(dimension, sieve, &i, &j, contact2, NULL);
+        wides_pack_u32(list->hit_first + hits, bits, first);
+        wides_pack_u32(list->hit_second + hits, bits, second);
+        hits += (unsigned)__builtin_popcount(bits);
+    }
+    for (size_t h = 0; h < hits; h++) {
+        predict(dimension, growing, engine, list->hit_first[h] / row, list->hit_second[h] / row, 0,
+                growth);
     }
 }
 
-// After its collision at time s: whom does `slot` meet in the rest of the window?
-KERNEL void predict_one(const int dimension, const int growing, Engine *engine, uint32_t slot,
-                        double s, Growth growth) {
+// After a collision at time s: whom do its partners meet in the rest of the window? The neighbours
+// of both are tested at once, those of one in each half of a register.
+KERNEL void predict_both(const int dimension, const int growing, Engine *engine,
+                         const uint32_t slots[2], double s, Growth growth, const Sieve *sieve) {
     const NeighbourList *list = &engine->list;
-    const size_t row = dimension == 2 ? ROW_2D : ROW_3D;
-    for (size_t n = list->start[slot]; n < list->start[slot + 1]; n += LANES) {
-        const double *i[LANES], *j[LANES];
-        for (int k = 0; k < LANES; k++) {
-            i[k] = engine->rows + row * slot;
-            j[k] = engine->rows + list->neighbour[n + (size_t)k];
-        }
-        Lanes r[3], v[3];
-        lanes_separate(dimension, i, j, r, v);
-        take_nearest(dimension, engine, r);
-        for (int a = 0; a < dimension; a++) r[a] += v[a] * lanes_all(s);
-        const Gap gap = gap_of(dimension, growing, r, v, lanes_load(list->contact2 + n), s, growth);
-        unsigned bits = lanes_bits(gap_closes(growing, gap, engine->settings.window - s));
-        if (!bits) continue;
-        double time[LANES];
-        lanes_store_at(time, lanes_all(s) + gap_time(gap));
+    const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D, none = list->start[engine->count];
+    const float gone = (float)(s * engine->half_per_window);
+    uint32_t own[2][HALF], at[2], end[2];
+    for (int b = 0; b < 2; b++) {
+        for (int k = 0; k < HALF; k++) own[b][k] = slots[b] * row;
+        at[b] = list->start[slots[b]];
+        end[b] = list->start[slots[b] + 1];
+    }
+    const Rows i = {engine->sketch, {own[0], own[1]}};
+    for (; at[0] < end[0] || at[1] < end[1]; at[0] += HALF, at[1] += HALF) {
+        uint32_t from[2];
+        Wides contact2;
+        for (int b = 0; b < 2; b++) from[b] = at[b] < end[b] ? at[b] : none;
+        memcpy(&contact2, list->contact2 + from[0], sizeof contact2 / 2);
+        memcpy((float *)&contact2 + HALF, list->contact2 + from[1], sizeof contact2 / 2);
+        const Rows j = {engine->sketch, {list->neighbour + from[0], list->neighbour + from[1]}};
+        unsigned bits = may_meet(dimension, sieve, &i, &j, contact2, &gone);
         for (; bits; bits &= bits - 1) {
             const int k = __builtin_ctz(bits);
-            event_put(engine, time[k], slot, list->neighbour[n + (size_t)k] / (uint32_t)row);
+            predict(dimension, growing, engine, slots[k / HALF], j.half[k / HALF][k % HALF] / row,
+                    s, growth);
         }
     }
 }
@@ -294,6 +277,8 @@ KERNEL void collide(const int dimension, const int growing, Engine *engine, cons
     exchange_add(dimension, sums, r, momentum);
     kick(dimension, i, change_i, t);
     kick(dimension, j, change_j, t);
+    sketch_row(dimension, engine, (uint32_t)row * slot_i);
+    sketch_row(dimension, engine, (uint32_t)row * slot_j);
     engine->tally.collisions++;
     if (engine->log) record(engine, event);
     const uint32_t stamp_i = ++engine->stamp[slot_i], stamp_j = ++engine->stamp[slot_j];
@@ -330,7 +315,8 @@ KERNEL uint32_t *earliest(Engine *engine, uint32_t *bucket) {
     return best;
 }
 
-KERNEL void carry_out(const int dimension, const int growing, Engine *engine, Growth growth) {
+KERNEL void carry_out(const int dimension, const int growing, Engine *engine, Growth growth,
+                      const Sieve *sieve) {
     Exchange sums = exchange_open(dimension, &engine->tally);
     for (uint32_t b = 0; b < engine->buckets && !engine->hung; b++) {
         uint32_t *link;
@@ -339,8 +325,8 @@ KERNEL void carry_out(const int dimension, const int growing, Engine *engine, Gr
             event_drop(engine, link);
             collide(dimension, growing, engine, &event, growth, &sums);
             if (engine->hung) break;
-            predict_one(dimension, growing, engine, event.first, event.time, growth);
-            predict_one(dimension, growing, engine, event.second, event.time, growth);
+            const uint32_t slots[2] = {event.first, event.second};
+            predict_both(dimension, growing, engine, slots, event.time, growth, sieve);
         }
     }
     exchange_close(dimension, &sums, &engine->tally);
@@ -410,27 +396,52 @@ KERNEL void move_two_rows(Engine *engine, uint32_t slot, Lanes *farthest) {
 }
 #endif
 
-KERNEL void move_all(const int dimension, Engine *engine) {
-    Quad farthest = {0};
-    uint32_t slot = 0;
-#if LANES == 8
-    Lanes farthest_two = {0};
-    const uint32_t even = dimension == 2 ? (uint32_t)engine->count & ~1u : 0;
-    for (; slot < even; slot += 2) move_two_rows(engine, slot, &farthest_two);
-    farthest[0] = fmax(farthest_two[0], farthest_two[4]);
-#endif
-    for (; slot < engine->count; slot++) move_rows(dimension, engine, slot, &farthest);
-    if (farthest[0] > engine->list.farthest2) engine->list.farthest2 = farthest[0];
-}
-
-// Velocities from a Gaussian of variance kT/m per direction (Weysser, thesis, eq. 2.7, corrected).
-KERNEL void redraw_all(const int dimension, Engine *engine) {
-    for (size_t slot = 0; slot < engine->count; slot++) {
-        double *velocity = engine->rows + (dimension == 2 ? ROW_2D * slot + 2 : ROW_3D * slot + 4);
-        for (int a = 0; a < dimension; a++) {
-            velocity[a] = engine->column[a][slot] * engine->thermal[slot];
+// Particles from..to - 1 as they enter the next window: with a velocity from a Gaussian of variance
+// kT/m per direction (Weysser, thesis, eq. 2.7, corrected) where they are drawn anew.
+KERNEL void open_rows(const int dimension, const int redraw, const Engine *engine, uint32_t from,
+                      uint32_t to) {
+    for (uint32_t slot = from; slot < to; slot++) {
+        const uint32_t row = (dimension == 2 ? ROW_2D : ROW_3D) * slot;
+        double *place = engine->rows + row;
+        if (!redraw) {
+            sketch_row(dimension, engine, row);
+        } else if (dimension == 2) {
+            const Pair velocity = pair_widen(engine->normals + row / 2) * engine->thermal[slot];
+            *(Pair *)(place + 2) = velocity;
+            sketch_2d(engine, *(const Pair *)place, velocity, engine->sketch + row);
+        } else {
+            const Quad velocity = quad_widen(engine->normals + row / 2) * engine->thermal[slot];
+            *(Quad *)(place + 4) = velocity;
+            sketch_3d(engine, (const Quad *)place, &velocity, engine->sketch + row);
         }
     }
+}
+
+// Particles from..to - 1 to the end of the window; `from` is even.
+KERNEL void move_some(const int dimension, Engine *engine, uint32_t from, uint32_t to,
+                      Quad *farthest) {
+    uint32_t slot = from;
+#if LANES == 8
+    Lanes farthest_two = {0};
+    const uint32_t even = dimension == 2 ? to & ~1u : from;
+    for (; slot < even; slot += 2) move_two_rows(engine, slot, &farthest_two);
+    const Quad farther = {farthest_two[0] > farthest_two[4] ? farthest_two[0] : farthest_two[4]};
+    quad_keep_larger(farthest, &farther);
+#endif
+    for (; slot < to; slot++) move_rows(dimension, engine, slot, farthest);
+}
+
+// Out of this window and into the next one, while a few particles are at hand.
+KERNEL void move_all(const int dimension, const int redraw, Engine *engine) {
+    enum { FEW = 32 };
+    const uint32_t count = (uint32_t)engine->count;
+    Quad farthest = {0};
+    for (uint32_t from = 0; from < count; from += FEW) {
+        const uint32_t to = from + FEW < count ? from + FEW : count;
+        move_some(dimension, engine, from, to, &farthest);
+        open_rows(dimension, redraw, engine, from, to);
+    }
+    if (farthest[0] > engine->list.farthest2) engine->list.farthest2 = farthest[0];
 }
 
 // Works on a copy of the engine's own fields: what is written to rows and lists cannot be it, so
@@ -442,9 +453,13 @@ KERNEL void run(const int dimension, const int growing, Engine *engine) {
     own.free_event = NO_EVENT;
     memset(own.stamp, 0, (own.count + 1) * sizeof *own.stamp);
     memset(own.bucket, 0xff, own.buckets * sizeof *own.bucket);
-    predict_all(dimension, growing, &own, growth);
-    carry_out(dimension, growing, &own, growth);
-    move_all(dimension, &own);
+    const Sieve sieve = sieve_of(dimension, &own);
+    predict_all(dimension, growing, &own, growth, &sieve);
+    carry_out(dimension, growing, &own, growth, &sieve);
+    if (own.redraw)
+        move_all(dimension, 1, &own);
+    else
+        move_all(dimension, 0, &own);
     *engine = own;
 }
 
@@ -459,8 +474,12 @@ KERNEL void run(const int dimension, const int growing, Engine *engine) {
     static void grow_##dimension(Engine *engine) {                                                 \
         run(dimension, 1, engine);                                                                 \
     }                                                                                              \
-    static void redraw_##dimension(Engine *engine) {                                               \
-        redraw_all(dimension, engine);                                                             \
+    static void open_##dimension(Engine *engine) {                                                 \
+        const Engine own = *engine;                                                                \
+        if (own.redraw)                                                                            \
+            open_rows(dimension, 1, &own, 0, (uint32_t)own.count);                                 \
+        else                                                                                       \
+            open_rows(dimension, 0, &own, 0, (uint32_t)own.count);                                 \
     }                                                                                              \
     static void pair_##dimension(Engine *engine, size_t cell, const Span *spans, int count) {      \
         pair_cell(dimension, engine, cell, spans, count);                                          \
@@ -471,7 +490,7 @@ KERNEL void run(const int dimension, const int growing, Engine *engine) {
     const EngineKernel engine_kernel_##dimension##d_##path = {                                     \
         .run_window = run_##dimension,                                                             \
         .run_growing = grow_##dimension,                                                           \
-        .redraw = redraw_##dimension,                                                              \
+        .open_window = open_##dimension,                                                           \
         .pair_cell = pair_##dimension,                                                             \
         .prune = prune_##dimension,                                                                \
     };

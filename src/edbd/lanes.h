@@ -99,6 +99,16 @@ KERNEL Lanes lanes_nearest(Lanes r, Lanes edge, Lanes half) {
 // Four doubles, which every instruction set can split or join: half a row in 3D, a row in 2D.
 typedef double Quad __attribute__((vector_size(32), aligned(32), may_alias));
 
+// Two doubles: a velocity in 2D.
+typedef double Pair __attribute__((vector_size(16), aligned(16), may_alias));
+typedef float TwoFloats __attribute__((vector_size(8), aligned(8), may_alias));
+typedef float FourFloats __attribute__((vector_size(16), aligned(16), may_alias));
+
+KERNEL Pair pair_widen(const float *from) {
+    return __builtin_convertvector(*(const TwoFloats *)from, Pair);
+}
+#define quad_widen(from) __builtin_convertvector(*(const FourFloats *)(from), Quad)
+
 KERNEL void quad_keep_larger(Quad *most, const Quad *other) {
 #if LANES >= 4
     *most = (Quad)_mm256_max_pd((__m256d)*most, (__m256d)*other);
@@ -151,12 +161,18 @@ KERNEL void lanes_pack_u32(uint32_t *to, unsigned bits, const uint32_t *from) {
 }
 
 // Writes the lanes of the set bits; room for LANES values is needed.
-KERNEL void lanes_pack(double *to, unsigned bits, Lanes values) {
+KERNEL void lanes_pack_floats(float *to, unsigned bits, Lanes values) {
 #if LANES == 8
-    _mm512_storeu_pd(to, _mm512_maskz_compress_pd((__mmask8)bits, (__m512d)values));
+    const __m256 floats = _mm512_cvtpd_ps((__m512d)values);
+    _mm256_storeu_ps(to, _mm256_maskz_compress_ps((__mmask8)bits, floats));
 #else
-    for (; bits; bits &= bits - 1) *to++ = values[__builtin_ctz(bits)];
+    for (; bits; bits &= bits - 1) *to++ = (float)values[__builtin_ctz(bits)];
 #endif
+}
+
+KERNEL Lanes lanes_widen(const float *from) {
+    typedef float Floats __attribute__((vector_size(4 * LANES), aligned(4 * LANES), may_alias));
+    return __builtin_convertvector(*(const Floats *)from, Lanes);
 }
 
 // Separations and relative velocities of LANES pairs of rows (edbd/engine.h): rows are subtracted

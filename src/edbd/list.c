@@ -14,7 +14,8 @@ static const double SKIN_BALLISTIC[2] = {0.70, 0.55}; // or kept for many
 static const double SKIN_WINDOWS = 16;       // least skin, in thermal flights of one window
 static const double INNER_SKIN_WINDOWS = 40; // the inner skin, in the same,
 static const double INNER_SKIN_MOST = 0.3;   // where that is below this part of the outer
-static const double FAR_AWAY = 1e100;        // where the particle is that nothing meets
+static const double FAR_AWAY = 1e15;         // where the particle is that nothing meets
+static const float NEVER = -1e30F;           // contact distance squared of pairs that never meet
 
 typedef struct Grid {
     int cells[3];
@@ -127,7 +128,20 @@ static void fill_columns(Engine *engine) {
 
 static void place_nobody(Engine *engine) {
     double *nobody = engine->rows + engine->row * engine->count;
-    for (size_t k = 0; k < engine->row; k++) nobody[k] = k < engine->row / 2 ? FAR_AWAY : 0;
+    float *sketch = engine->sketch + engine->row * engine->count;
+    for (size_t k = 0; k < engine->row; k++) {
+        nobody[k] = k < engine->row / 2 ? FAR_AWAY : 0;
+        sketch[k] = (float)FAR_AWAY;
+    }
+}
+
+static Status grow_floats(float **floats, size_t used, size_t capacity) {
+    float *more = NULL;
+    TRY(NEW_ARRAY(more, capacity));
+    if (used) memcpy(more, *floats, used * sizeof *more);
+    memory_free(*floats);
+    *floats = more;
+    return OK;
 }
 
 // Room for more numbers, of which the first `used` are kept.
@@ -140,26 +154,18 @@ static Status grow_numbers(uint32_t **numbers, size_t used, size_t capacity) {
     return OK;
 }
 
-static Status grow_values(double **values, size_t used, size_t capacity) {
-    double *more = NULL;
-    TRY(NEW_ARRAY(more, capacity));
-    if (used) memcpy(more, *values, used * sizeof *more);
-    memory_free(*values);
-    *values = more;
-    return OK;
-}
-
 static Status grow_pairs(NeighbourList *list, size_t pairs) {
     if (pairs <= list->pair_capacity) return OK;
     const size_t capacity = pairs + pairs / 8 + 4 * BLOCK;
     TRY(grow_numbers(&list->first, list->pairs, capacity));
     TRY(grow_numbers(&list->second, list->pairs, capacity));
-    TRY(grow_values(&list->pair_contact2, list->pairs, capacity));
-    TRY(grow_numbers(&list->hits, 0, capacity));
+    TRY(grow_floats(&list->pair_contact2, list->pairs, capacity));
+    TRY(grow_numbers(&list->hit_first, 0, capacity));
+    TRY(grow_numbers(&list->hit_second, 0, capacity));
     if (list->pruned) {
         TRY(grow_numbers(&list->pruned_first, 0, capacity));
         TRY(grow_numbers(&list->pruned_second, 0, capacity));
-        TRY(grow_values(&list->pruned_contact2, 0, capacity));
+        TRY(grow_floats(&list->pruned_contact2, 0, capacity));
     }
     list->pair_capacity = capacity;
     return OK;
@@ -169,7 +175,7 @@ static Status grow_neighbours(NeighbourList *list, size_t neighbours) {
     if (neighbours <= list->neighbour_capacity) return OK;
     const size_t capacity = neighbours + neighbours / 8 + 4 * BLOCK;
     TRY(grow_numbers(&list->neighbour, 0, capacity));
-    TRY(grow_values(&list->contact2, 0, capacity));
+    TRY(grow_floats(&list->contact2, 0, capacity));
     list->neighbour_capacity = capacity;
     return OK;
 }
@@ -232,7 +238,7 @@ static Status list_pairs(Engine *engine, const Grid *grid) {
     }
     for (; list->pairs % BLOCK; list->pairs++) {
         list->first[list->pairs] = list->second[list->pairs] = nobody;
-        list->pair_contact2[list->pairs] = 0;
+        list->pair_contact2[list->pairs] = NEVER;
     }
     return OK;
 }
@@ -249,11 +255,11 @@ static Status start_neighbours(Engine *engine, uint32_t *degree) {
     uint32_t end = 0;
     for (size_t slot = 0; slot < engine->count; slot++) {
         list->start[slot] = end;
-        end += (degree[slot] + BLOCK - 1) / BLOCK * BLOCK;
+        end += (degree[slot] + HALF_BLOCK - 1) / HALF_BLOCK * HALF_BLOCK;
         degree[slot] = list->start[slot];
     }
     list->start[engine->count] = degree[engine->count] = end;
-    return grow_neighbours(list, end + 2 * BLOCK); // padding pairs, nobody with nobody, go there
+    return grow_neighbours(list, end + 3 * BLOCK); // padding pairs, nobody with nobody, go there
 }
 
 // The half list, seen from both partners of each pair.
@@ -269,10 +275,11 @@ static Status list_neighbours(Engine *engine) {
         list->neighbour[other] = first;
         list->contact2[one] = list->contact2[other] = list->pair_contact2[p];
     }
-    for (size_t slot = 0; slot < engine->count; slot++) {
-        for (uint32_t n = end[slot]; n < list->start[slot + 1]; n++) {
+    for (size_t slot = 0; slot <= engine->count; slot++) {
+        const uint32_t last = slot < engine->count ? list->start[slot + 1] : end[slot] + HALF_BLOCK;
+        for (uint32_t n = end[slot]; n < last; n++) {
             list->neighbour[n] = (uint32_t)(engine->count * engine->row);
-            list->contact2[n] = 0;
+            list->contact2[n] = NEVER;
         }
     }
     return OK;
@@ -297,7 +304,7 @@ void list_prune(Engine *engine) {
     const uint32_t nobody = (uint32_t)(engine->count * engine->row);
     for (; list->near % BLOCK; list->near++) {
         list->near_first[list->near] = list->near_second[list->near] = nobody;
-        list->near_contact2[list->near] = 0;
+        list->near_contact2[list->near] = NEVER;
     }
 }
 
@@ -331,6 +338,8 @@ Status list_build(Engine *engine) {
     memcpy(list->origin, list->anchor, ANCHOR * engine->count * sizeof(double));
     fill_columns(engine);
     engine->tally.rebuilds++;
+    engine->redraw = 0;
+    engine->kernel->open_window(engine);
     TRY(list_pairs(engine, &grid));
     TRY(list_neighbours(engine));
     see_all_pairs(list);
@@ -372,7 +381,8 @@ void list_free(Engine *engine) {
     memory_free(list->first);
     memory_free(list->second);
     memory_free(list->pair_contact2);
-    memory_free(list->hits);
+    memory_free(list->hit_first);
+    memory_free(list->hit_second);
     memory_free(list->pruned_first);
     memory_free(list->pruned_second);
     memory_free(list->pruned_contact2);

@@ -6,6 +6,8 @@
 #include "edbd/engine.h"
 #include "edbd/lanes.h"
 
+static const double ROUNDED_UP = 1 + 1e-6; // for contact distances kept in single precision
+
 // Which of the candidates from slot `from` on are near `slot`, one bit each.
 KERNEL unsigned near_slots(const int dimension, const Engine *engine, uint32_t slot, uint32_t from,
                            uint32_t to, Lanes *contact2) {
@@ -31,7 +33,7 @@ KERNEL void pair_span(const int dimension, Engine *engine, uint32_t slot, Span s
         Lanes contact2;
         const unsigned bits = near_slots(dimension, engine, slot, from, span.to, &contact2);
         lanes_pack_numbers(list->second + list->pairs, bits, from * row, row);
-        lanes_pack(list->pair_contact2 + list->pairs, bits, contact2);
+        lanes_pack_floats(list->pair_contact2 + list->pairs, bits, contact2);
         for (int k = 0; k < LANES; k++) list->first[list->pairs + (size_t)k] = slot * row;
         list->pairs += (unsigned)__builtin_popcount(bits);
     }
@@ -66,13 +68,13 @@ KERNEL void prune_pairs(const int dimension, Engine *engine) {
             r[a] = lanes_nearest(r[a], lanes_all(own.edge[a]), lanes_all(own.edge[a] / 2));
             r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
         }
-        const Lanes contact2 = lanes_load(list->pair_contact2 + p);
+        const Lanes contact2 = lanes_widen(list->pair_contact2 + p);
         const Lanes range =
-            lanes_sqrt(contact2) * lanes_all(own.scale) + lanes_all(list->inner_skin);
+            lanes_sqrt(contact2) * lanes_all(own.scale * ROUNDED_UP) + lanes_all(list->inner_skin);
         const unsigned bits = lanes_bits(lanes_less(r2, range * range));
         lanes_pack_u32(list->near_first + near, bits, list->first + p);
         lanes_pack_u32(list->near_second + near, bits, list->second + p);
-        lanes_pack(list->near_contact2 + near, bits, contact2);
+        lanes_pack_floats(list->near_contact2 + near, bits, contact2);
         near += (unsigned)__builtin_popcount(bits);
     }
     engine->list.near = near;

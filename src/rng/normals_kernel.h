@@ -121,8 +121,21 @@ KERNEL Reals sine_of_half_circle(Words word) {
 enum { CHUNK = 256 };
 typedef struct Chunk {
     _Alignas(4 * LANES) uint32_t x[CHUNK], y[CHUNK]; // words of each particle
-    _Alignas(4 * LANES) float normals[2][CHUNK];
+    _Alignas(4 * LANES) float normals[3][CHUNK];
 } Chunk;
+
+// The same choice of four lanes from a (0, 1, ...) and b (LANES, LANES + 1, ...) in every block of
+// four.
+#if LANES == 16
+#define IN_BLOCKS(a, b, p, q, r, s)                                                                \
+    __builtin_shufflevector(a, b, p, q, r, s, p + 4, q + 4, r + 4, s + 4, p + 8, q + 8, r + 8,     \
+                            s + 8, p + 12, q + 12, r + 12, s + 12)
+#elif LANES == 8
+#define IN_BLOCKS(a, b, p, q, r, s)                                                                \
+    __builtin_shufflevector(a, b, p, q, r, s, p + 4, q + 4, r + 4, s + 4)
+#else
+#define IN_BLOCKS(a, b, p, q, r, s) __builtin_shufflevector(a, b, p, q, r, s)
+#endif
 
 #define LOAD(vector, array) memcpy(&(vector), (array), sizeof(vector))
 #define STORE(vector, array) memcpy((array), &(vector), sizeof(vector))
@@ -142,41 +155,96 @@ KERNEL void draw_words(Chunk *chunk, const uint32_t key[3], const uint32_t *ids,
 
 // Lower bits of the angle's word also refine the radius, which shows in radii above 6.6 and below
 // 3e-5 only.
-KERNEL void transform(Chunk *chunk, size_t count, int components) {
+KERNEL void transform_two(Chunk *chunk, size_t count) {
+    for (size_t i = 0; i < count; i += LANES) {
+        Words x, y;
+        Reals cosine, sine;
+        LOAD(x, chunk->x + i);
+        LOAD(y, chunk->y + i);
+        const Reals r = radius(x, y);
+        direction(y, &cosine, &sine);
+        cosine *= r, sine *= r;
+        STORE(cosine, chunk->normals[0] + i);
+        STORE(sine, chunk->normals[1] + i);
+    }
+}
+
+KERNEL void transform_third(Chunk *chunk, size_t count) {
     for (size_t i = 0; i < count; i += LANES) {
         Words x, y;
         LOAD(x, chunk->x + i);
         LOAD(y, chunk->y + i);
-        const Reals r = radius(x, y);
-        Reals first, second;
-        if (components == 1) {
-            first = r * sine_of_half_circle(y);
-        } else {
-            direction(y, &first, &second);
-            first *= r, second *= r;
-            STORE(second, chunk->normals[1] + i);
-        }
-        STORE(first, chunk->normals[0] + i);
+        const Reals third = radius(x, y) * sine_of_half_circle(y);
+        STORE(third, chunk->normals[2] + i);
     }
 }
 
-// `components` (1 or 2) numbers for each of `count` <= CHUNK particles.
-KERNEL void fill(const uint32_t key[3], const uint32_t *ids, size_t count, int components,
-                 double *const *normals, size_t at) {
-    Chunk chunk;
-    draw_words(&chunk, key, ids + at, count);
-    transform(&chunk, count, components);
-    for (int a = 0; a < components; a++) {
-        for (size_t i = 0; i < count; i++) normals[a][at + i] = (double)chunk.normals[a][i];
-    }
+// `components` (2 or 3) numbers for each of `count` <= CHUNK particles.
+KERNEL void fill(Chunk *chunk, const NormalsKey *key, const uint32_t *ids, size_t count,
+                 int components) {
+    draw_words(chunk, key->plane, ids, count);
+    transform_two(chunk, count);
+    if (components == 2) return;
+    draw_words(chunk, key->third, ids, count);
+    transform_third(chunk, count);
+}
+
+KERNEL size_t chunk_size(size_t count, size_t at) {
+    return count - at < CHUNK ? count - at : CHUNK;
 }
 
 KERNEL void fill_normals(const NormalsKey *key, const uint32_t *ids, size_t count, int components,
                          double *const normals[3]) {
+    Chunk chunk;
     for (size_t at = 0; at < count; at += CHUNK) {
-        const size_t size = count - at < CHUNK ? count - at : CHUNK;
-        fill(key->plane, ids, size, 2, normals, at);
-        if (components == 3) fill(key->third, ids, size, 1, normals + 2, at);
+        const size_t size = chunk_size(count, at);
+        fill(&chunk, key, ids + at, size, components);
+        for (int a = 0; a < components; a++) {
+            for (size_t i = 0; i < size; i++) normals[a][at + i] = (double)chunk.normals[a][i];
+        }
+    }
+}
+
+KERNEL void fill_rows_2d(const Chunk *chunk, size_t count, float *rows) {
+    for (size_t i = 0; i < count; i++) {
+        rows[2 * i] = chunk->normals[0][i];
+        rows[2 * i + 1] = chunk->normals[1][i];
+    }
+}
+
+// Turned four by four: of each block of four lanes of x, y and z, four rows.
+KERNEL void fill_rows_3d(const Chunk *chunk, size_t count, float *rows) {
+    const Reals zero = {0};
+    for (size_t i = 0; i < count; i += LANES) {
+        Reals x, y, z, row[4];
+        LOAD(x, chunk->normals[0] + i);
+        LOAD(y, chunk->normals[1] + i);
+        LOAD(z, chunk->normals[2] + i);
+        const Reals xy01 = IN_BLOCKS(x, y, 0, LANES, 1, LANES + 1);
+        const Reals xy23 = IN_BLOCKS(x, y, 2, LANES + 2, 3, LANES + 3);
+        const Reals z01 = IN_BLOCKS(z, zero, 0, LANES, 1, LANES + 1);
+        const Reals z23 = IN_BLOCKS(z, zero, 2, LANES + 2, 3, LANES + 3);
+        row[0] = IN_BLOCKS(xy01, z01, 0, 1, LANES, LANES + 1);
+        row[1] = IN_BLOCKS(xy01, z01, 2, 3, LANES + 2, LANES + 3);
+        row[2] = IN_BLOCKS(xy23, z23, 0, 1, LANES, LANES + 1);
+        row[3] = IN_BLOCKS(xy23, z23, 2, 3, LANES + 2, LANES + 3);
+        for (size_t k = 0; k < LANES; k++) {
+            memcpy(rows + 4 * (i + k), (const float *)&row[k % 4] + k / 4 * 4, 4 * sizeof(float));
+        }
+    }
+}
+
+// The same numbers in rows: x y of each particle, or x y z 0.
+KERNEL void fill_rows(const NormalsKey *key, const uint32_t *ids, size_t count, int components,
+                      float *rows) {
+    Chunk chunk;
+    for (size_t at = 0; at < count; at += CHUNK) {
+        const size_t size = chunk_size(count, at);
+        fill(&chunk, key, ids + at, size, components);
+        if (components == 2)
+            fill_rows_2d(&chunk, size, rows + 2 * at);
+        else
+            fill_rows_3d(&chunk, size, rows + 4 * at);
     }
 }
 

@@ -74,6 +74,15 @@ void rng_normals_with(CpuPath path, RngKey key, RngStream stream, uint64_t step,
     fills[path](&words, ids, count, components, normals);
 }
 
+void rng_normal_rows_with(CpuPath path, RngKey key, RngStream stream, uint64_t step,
+                          const uint32_t *ids, size_t count, int components, float *rows) {
+    static NormalsFillRows *const fills[CPU_PATHS] = {
+        normals_fill_rows_portable, normals_fill_rows_avx2, normals_fill_rows_avx512};
+    ASSERT(components == 2 || components == 3);
+    const NormalsKey words = normals_key(key, stream, step);
+    fills[path](&words, ids, count, components, rows);
+}
+
 // Asked of the processor once: that takes as long as a hundred normal numbers.
 static CpuPath chosen_path(void) {
     static atomic_int chosen = -1;
@@ -88,6 +97,11 @@ static CpuPath chosen_path(void) {
 void rng_normals(RngKey key, RngStream stream, uint64_t step, const uint32_t *ids, size_t count,
                  int components, double *const normals[3]) {
     rng_normals_with(chosen_path(), key, stream, step, ids, count, components, normals);
+}
+
+void rng_normal_rows(RngKey key, RngStream stream, uint64_t step, const uint32_t *ids, size_t count,
+                     int components, float *rows) {
+    rng_normal_rows_with(chosen_path(), key, stream, step, ids, count, components, rows);
 }
 
 void rng_words_with(CpuPath path, RngKey key, RngStream stream, uint64_t block,

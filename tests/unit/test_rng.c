@@ -88,6 +88,30 @@ START_TEST(every_instruction_set_gives_the_same_bits) {
 }
 END_TEST
 
+START_TEST(rows_are_the_same_numbers) {
+    enum { ODD = 1003 }; // not a multiple of any register
+    Sample expected = sample_of(ODD);
+    float *rows = NULL;
+    ck_assert_int_eq(NEW_ARRAY(rows, 4 * (ODD + RNG_ROOM)), OK);
+    for (int components = 2; components <= 3; components++) {
+        const size_t row = components == 2 ? 2 : 4;
+        rng_normals(KEY, STREAM_VELOCITY, 7, expected.ids, ODD, components, expected.normals);
+        for (int path = 0; path <= (int)cpu_path(); path++) {
+            rng_normal_rows_with((CpuPath)path, KEY, STREAM_VELOCITY, 7, expected.ids, ODD,
+                                 components, rows);
+            for (size_t i = 0; i < ODD; i++) {
+                for (int a = 0; a < components; a++) {
+                    ck_assert((double)rows[row * i + (size_t)a] == expected.normals[a][i]);
+                }
+                if (components == 3) ck_assert(rows[row * i + 3] == 0);
+            }
+        }
+    }
+    memory_free(rows);
+    sample_free(&expected);
+}
+END_TEST
+
 // Fowler, Noll and Vo's hash of the bits, so that each compiler and level of optimisation can be
 // seen to give those of the others.
 START_TEST(every_compiler_gives_these_bits) {
@@ -480,6 +504,7 @@ int main(void) {
     tcase_add_test(all, the_cold_path_is_philox4x64_10);
     tcase_add_test(all, the_hot_path_is_threefry2x32_13);
     tcase_add_test(all, every_instruction_set_gives_the_same_bits);
+    tcase_add_test(all, rows_are_the_same_numbers);
     tcase_add_test(all, every_compiler_gives_these_bits);
     tcase_add_test(all, a_number_depends_on_its_particle_only);
     tcase_add_test(all, the_transform_is_exact_to_single_precision);

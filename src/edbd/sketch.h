@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The sketch: who may meet in what is left of the window, told from single precision for twice as
+// many pairs at a time. It never overlooks a pair that meets; whom it lets through is tested
+// exactly, so its arithmetic does not show in a result.
+//
+// A row is where the virtual origin of a particle is, x y or x y z 0, and where two windows would
+// take it, likewise. With separations r now and g then, a gap closing in a window w is, for all
+// t <= w,
+//     |r + v t|^2 - contact^2 >= r^2 + 2 w r.v - contact^2 = r.g - contact^2,
+// so that pairs with r.g > contact^2 do not meet; with growth, contact is that at the end of the
+// window.
+#pragma once
+
+#include "edbd/engine.h"
+#include "edbd/lanes.h"
+
+#define WIDE (2 * LANES) // pairs at a time
+
+typedef float Wides __attribute__((vector_size(4 * WIDE), aligned(4 * WIDE), may_alias));
+typedef int32_t WideBits __attribute__((vector_size(4 * WIDE)));
+
+KERNEL Wides wides_all(float x) {
+    return x - (Wides){0};
+}
+
+// Which of two sets of numbers are less than the others, one bit each.
+KERNEL unsigned wides_less(Wides a, Wides b) {
+#if LANES == 8
+    return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ);
+#elif LANES == 4
+    return (unsigned)_mm256_movemask_ps((__m256)(a < b));
+#elif defined(__x86_64__)
+    return (unsigned)_mm_movemask_ps((__m128)(a < b));
+#else
+    unsigned bits = 0;
+    for (unsigned k = 0; k < WIDE; k++) bits |= (unsigned)(a[k] < b[k]) << k;
+    return bits;
+#endif
+}
+
+// Of pairs, in each half of a register.
+enum { HALF = WIDE / 2 };
+typedef struct Rows {
+    const float *sketch;
+    const uint32_t *half[2]; // where the rows of each half begin
+} Rows;
+
+KERNEL const float *row_of(const Rows *rows, int k) {
+    return rows->sketch + rows->half[k / HALF][k % HALF];
+}
+
+// The image of r that is nearest, and the same image of g.
+KERNEL void wides_take_nearest(Wides *r, Wides *g, Wides edge, Wides half) {
+#if LANES == 8
+    const __mmask16 above = (__mmask16)wides_less(half, *r),
+                    below = (__mmask16)wides_less(*r, -half);
+    *r = (Wides)_mm512_mask_sub_ps((__m512)*r, above, (__m512)*r, (__m512)edge);
+    *g = (Wides)_mm512_mask_sub_ps((__m512)*g, above, (__m512)*g, (__m512)edge);
+    *r = (Wides)_mm512_mask_add_ps((__m512)*r, below, (__m512)*r, (__m512)edge);
+    *g = (Wides)_mm512_mask_add_ps((__m512)*g, below, (__m512)*g, (__m512)edge);
+#else
+    const Wides shift =
+        (Wides)((WideBits)edge & (*r < -half)) - (Wides)((WideBits)edge & (*r > half));
+    *r += shift;
+    *g += shift;
+#endif
+}
+
+// Writes those of WIDE integers whose bits are set; room for WIDE is needed.
+KERNEL void wides_pack_u32(uint32_t *to, unsigned bits, const uint32_t *from) {
+#if LANES == 8
+    const __m512i all = _mm512_loadu_si512(from);
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, all));
+#else
+    for (; bits; bits &= bits - 1) *to++ = from[__builtin_ctz(bits)];
+#endif
+}
+
+// The same choice of four lanes from a (0, 1, ...) and b (WIDE, WIDE + 1, ...) in every block of
+// four.
+#if LANES == 8
+#define IN_BLOCKS(a, b, p, q, r, s)                                                                \
+    __builtin_shufflevector(a, b, p, q, r, s, p + 4, q + 4, r + 4, s + 4, p + 8, q + 8, r + 8,     \
+                            s + 8, p + 12, q + 12, r + 12, s + 12)
+#elif LANES == 4
+#define IN_BLOCKS(a, b, p, q, r, s)                                                                \
+    __builtin_shufflevector(a, b, p, q, r, s, p + 4, q + 4, r + 4, s + 4)
+#else
+#define IN_BLOCKS(a, b, p, q, r, s) __builtin_shufflevector(a, b, p, q, r, s)
+#endif
+
+// Blocks of four rows into blocks of four columns.
+KERNEL void wides_turn(const Wides row[4], Wides column[4]) {
+    const Wides ab01 = IN_BLOCKS(row[0], row[1], 0, WIDE, 1, WIDE + 1);
+    const Wides ab23 = IN_BLOCKS(row[0], row[1], 2, WIDE + 2, 3, WIDE + 3);
+    const Wides cd01 = IN_BLOCKS(row[2], row[3], 0, WIDE, 1, WIDE + 1);
+    const Wides cd23 = IN_BLOCKS(row[2], row[3], 2, WIDE + 2, 3, WIDE + 3);
+    column[0] = IN_BLOCKS(ab01, cd01, 0, 1, WIDE, WIDE + 1);
+    column[1] = IN_BLOCKS(ab01, cd01, 2, 3, WIDE + 2, WIDE + 3);
+    column[2] = IN_BLOCKS(ab23, cd23, 0, 1, WIDE, WIDE + 1);
+    column[3] = IN_BLOCKS(ab23, cd23, 2, 3, WIDE + 2, WIDE + 3);
+}
+
+#if LANES == 8
+typedef float EightFloats __attribute__((vector_size(32), aligned(32), may_alias));
+
+KERNEL Wides wides_four_rows(const Rows *i, int k) {
+    const __m512 a = _mm512_castps128_ps512(_mm_load_ps(row_of(i, k)));
+    const __m512 b = _mm512_insertf32x4(a, _mm_load_ps(row_of(i, k + 4)), 1);
+    const __m512 c = _mm512_insertf32x4(b, _mm_load_ps(row_of(i, k + 8)), 2);
+    return (Wides)_mm512_insertf32x4(c, _mm_load_ps(row_of(i, k + 12)), 3);
+}
+KERNEL Wides wides_two_rows(const Rows *i, int k) {
+    const __m512 a = _mm512_castps256_ps512(_mm256_load_ps(row_of(i, k)));
+    return (Wides)_mm512_insertf32x8(a, _mm256_load_ps(row_of(i, k + 4)), 1);
+}
+KERNEL void wides_rows_2d(const Rows *i, const Rows *j, Wides row[4]) {
+    for (int k = 0; k < 4; k++) row[k] = wides_four_rows(i, k) - wides_four_rows(j, k);
+}
+KERNEL void sketch_separate_3d(const Rows *i, const Rows *j, Wides r[4], Wides g[4]) {
+    Wides row[8], low[4], high[4]; // the first and the last eight pairs: r, g, r, g
+    for (int k = 0; k < 4; k++) row[k] = wides_two_rows(i, k) - wides_two_rows(j, k);
+    for (int k = 0; k < 4; k++) row[4 + k] = wides_two_rows(i, 8 + k) - wides_two_rows(j, 8 + k);
+    wides_turn(row, low);
+    wides_turn(row + 4, high);
+    for (int a = 0; a < 3; a++) {
+        r[a] = __builtin_shufflevector(low[a], high[a], 0, 1, 2, 3, 8, 9, 10, 11, 16, 17, 18, 19,
+                                       24, 25, 26, 27);
+        g[a] = __builtin_shufflevector(low[a], high[a], 4, 5, 6, 7, 12, 13, 14, 15, 20, 21, 22, 23,
+                                       28, 29, 30, 31);
+    }
+}
+#elif LANES == 4
+KERNEL Wides wides_two_rows(const Rows *i, int k) {
+    const __m256 a = _mm256_castps128_ps256(_mm_load_ps(row_of(i, k)));
+    return (Wides)_mm256_insertf128_ps(a, _mm_load_ps(row_of(i, k + 4)), 1);
+}
+KERNEL void wides_rows_2d(const Rows *i, const Rows *j, Wides row[4]) {
+    for (int k = 0; k < 4; k++) row[k] = wides_two_rows(i, k) - wides_two_rows(j, k);
+}
+KERNEL void sketch_separate_3d(const Rows *i, const Rows *j, Wides r[4], Wides g[4]) {
+    Wides row[8], low[4], high[4]; // the first and the last four pairs: r, g
+    for (int k = 0; k < 8; k++)
+        row[k] = *(const Wides *)row_of(i, k) - *(const Wides *)row_of(j, k);
+    wides_turn(row, low);
+    wides_turn(row + 4, high);
+    for (int a = 0; a < 3; a++) {
+        r[a] = __builtin_shufflevector(low[a], high[a], 0, 1, 2, 3, 8, 9, 10, 11);
+        g[a] = __builtin_shufflevector(low[a], high[a], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+}
+#else
+KERNEL void wides_rows_2d(const Rows *i, const Rows *j, Wides row[4]) {
+    for (int k = 0; k < 4; k++)
+        row[k] = *(const Wides *)row_of(i, k) - *(const Wides *)row_of(j, k);
+}
+KERNEL void sketch_separate_3d(const Rows *i, const Rows *j, Wides r[4], Wides g[4]) {
+    Wides now[4], then[4];
+    for (int k = 0; k < 4; k++) {
+        now[k] = *(const Wides *)row_of(i, k) - *(const Wides *)row_of(j, k);
+        then[k] = *(const Wides *)(row_of(i, k) + 4) - *(const Wides *)(row_of(j, k) + 4);
+    }
+    wides_turn(now, r);
+    wides_turn(then, g);
+}
+#endif
+
+KERNEL void sketch_separate_2d(const Rows *i, const Rows *j, Wides r[4], Wides g[4]) {
+    Wides row[4], column[4];
+    wides_rows_2d(i, j, row);
+    wides_turn(row, column);
+    r[0] = column[0], r[1] = column[1];
+    g[0] = column[2], g[1] = column[3];
+}
+
+// What does not change in a window.
+typedef struct Sieve {
+    Wides edge[3], half_edge[3];
+    Wides scale2, error; // pairs with r.g > scale2 contact^2 + error do not meet
+} Sieve;
+
+KERNEL Sieve sieve_of(const int dimension, const Engine *engine) {
+    const double scale = engine->scale + engine->growth * engine->settings.window;
+    Sieve sieve = {.scale2 = wides_all((float)(scale * scale)),
+                   .error = wides_all(engine->sketch_error)};
+    for (int a = 0; a < dimension; a++) {
+        sieve.edge[a] = wides_all((float)engine->edge[a]);
+        sieve.half_edge[a] = sieve.edge[a] * 0.5f;
+    }
+    return sieve;
+}
+
+// Which of WIDE pairs may meet between the part `gone` of two windows and the end of the first, one
+// bit each.
+KERNEL unsigned may_meet(const int dimension, const Sieve *sieve, const Rows *i, const Rows *j,
+                         Wides contact2, const float *gone) {
+    Wides r[4], g[4], product = {0};
+    if (dimension == 2)
+        sketch_separate_2d(i, j, r, g);
+    else
+        sketch_separate_3d(i, j, r, g);
+    for (int a = 0; a < dimension; a++) {
+        wides_take_nearest(&r[a], &g[a], sieve->edge[a], sieve->half_edge[a]);
+        if (gone) {
+            const Wides past = (g[a] - r[a]) * *gone;
+            r[a] += past, g[a] -= past;
+        }
+        product = a == 0 ? r[a] * g[a] : product + r[a] * g[a];
+    }
+    return wides_less(product, contact2 * sieve->scale2 + sieve->error);
+}
+
+// Of a particle at a place with a velocity.
+KERNEL void sketch_2d(const Engine *engine, Pair place, Pair velocity, float *to) {
+    const Pair then = place + velocity * (2 * engine->settings.window);
+    *(FourFloats *)to =
+        __builtin_convertvector(__builtin_shufflevector(place, then, 0, 1, 2, 3), FourFloats);
+}
+KERNEL void sketch_3d(const Engine *engine, const Quad *place, const Quad *velocity, float *to) {
+    const Quad then = *place + *velocity * (2 * engine->settings.window);
+    *(FourFloats *)to = __builtin_convertvector(*place, FourFloats);
+    *(FourFloats *)(to + 4) = __builtin_convertvector(then, FourFloats);
+}
+
+KERNEL void sketch_row(const int dimension, const Engine *engine, uint32_t row) {
+    const double *place = engine->rows + row;
+    float *to = engine->sketch + row;
+    if (dimension == 2)
+        sketch_2d(engine, *(const Pair *)place, *(const Pair *)(place + 2), to);
+    else
+        sketch_3d(engine, (const Quad *)place, (const Quad *)(place + 4), to);
+}
