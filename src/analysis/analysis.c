@@ -51,7 +51,7 @@ static Status derive_from(Results *results, const ResultSeries *series, const Sy
     if (strcmp(observable, "pressure") == 0) {
         return derive_theory(results, series->stage, system);
     }
-    if (strcmp(observable, "collective_scattering") == 0) {
+    if (strcmp(observable, "collective_scattering_ends") == 0) {
         return derive_normalised_scattering(results, series);
     }
     if (strcmp(observable, "quartic_displacement") == 0) {

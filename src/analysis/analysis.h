@@ -18,7 +18,7 @@
 //   contact_value_A_B, compressibility_factor_contact             of contact_distribution
 //   compressibility_factor_compression, pressure_compression      of virtual_compression
 //   compressibility_factor_theory, pressure_theory                hard discs and spheres only
-//   collective_scattering_normalised, a series                    of collective_scattering
+//   collective_scattering_normalised, a series   of collective_scattering and its _ends
 //   non_gaussian_parameter, a series     of squared_displacement and quartic_displacement
 //   four_point_susceptibility, a series                           of overlap and overlap_square
 // With several species, diffusion is given for all particles and, with _NAME, for each species.

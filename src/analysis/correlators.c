@@ -49,11 +49,10 @@ static void jackknife(const Results *results, const Element *first, const Elemen
     }
 }
 
-// One of these: elements `second_of` and constants by element.
+// Of each element of two series of one shape.
 typedef struct Function {
     const char *name, *about;
     const ResultSeries *first, *second;
-    size_t (*second_of)(const ResultSeries *series, size_t element);
     double (*constant_of)(const ResultSeries *series, size_t element, const System *system);
     OfMeans of;
 } Function;
@@ -63,7 +62,7 @@ static void fill(const Results *results, const Function *function, const System 
     const ResultSeries *shape = function->first;
     for (size_t e = 0; e < shape->size; e++) {
         const Element first = {shape, e};
-        const Element second = {function->second, function->second_of(shape, e)};
+        const Element second = {function->second, e};
         jackknife(results, &first, &second, function->of, function->constant_of(shape, e, system),
                   values + e, shape->size);
     }
@@ -85,11 +84,6 @@ static Status put(Results *results, const Function *function, const System *syst
     return status;
 }
 
-static size_t same_element(const ResultSeries *series, size_t element) {
-    (void)series;
-    return element;
-}
-
 static double no_constant(const ResultSeries *series, size_t element, const System *system) {
     (void)series;
     (void)element;
@@ -97,24 +91,21 @@ static double no_constant(const ResultSeries *series, size_t element, const Syst
     return 0;
 }
 
-// Time is the last axis, and 0 its first.
-static size_t at_time_zero(const ResultSeries *series, size_t element) {
-    return element - element % series->axis[series->axes - 1].count;
-}
-
 static double ratio(double first, double second, double constant) {
     (void)constant;
     return first / second;
 }
 
-Status derive_normalised_scattering(Results *results, const ResultSeries *scattering) {
+Status derive_normalised_scattering(Results *results, const ResultSeries *ends) {
+    const ResultSeries *scattering =
+        results_find_series(results, ends->stage, "collective_scattering");
+    if (!scattering || scattering->size != ends->size) return OK;
     const Function function = {
         .name = "collective_scattering_normalised",
-        .about = "Collective intermediate scattering functions over their value at t = 0, "
-                 "F_ab(q,t)/S_ab(q).",
+        .about = "Collective intermediate scattering functions over structure factors, "
+                 "F_ab(q,t)/S_ab(q), both of the same configurations.",
         .first = scattering,
-        .second = scattering,
-        .second_of = at_time_zero,
+        .second = ends,
         .constant_of = no_constant,
         .of = ratio};
     return put(results, &function, NULL);
@@ -140,7 +131,6 @@ Status derive_non_gaussian(Results *results, const ResultSeries *quartic, const 
                  "Gaussian.",
         .first = quartic,
         .second = squared,
-        .second_of = same_element,
         .constant_of = dimension_of,
         .of = non_gaussian};
     return put(results, &function, system);
@@ -167,7 +157,6 @@ Status derive_susceptibility(Results *results, const ResultSeries *square, const
                  "fixed numbers of particles.",
         .first = square,
         .second = overlap,
-        .second_of = same_element,
         .constant_of = particles_of,
         .of = variance};
     return put(results, &function, system);

@@ -3,13 +3,15 @@
 // of species (Weysser, thesis, ch. 3), over the vectors of the reciprocal lattice in a shell around
 // each wave number and many time origins. The two ways round, a before b and b before a, are the
 // same in equilibrium and averaged. The first lag is 0, where F_ab is the structure factor S_ab.
+// Beside each lag stands S_ab over the very configurations at its two ends: the difference to F_ab
+// is then <|rho(t) - rho(0)|^2>/(2N), which knows the little that has changed as well as the much.
 #include "base/memory.h"
 #include "observables/history.h"
 #include "observables/labels.h"
 #include "observables/put.h"
 #include "observables/wave_vectors.h"
 
-#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 typedef struct CollectiveSettings {
@@ -46,11 +48,12 @@ typedef struct Collective {
     size_t pairs;
     WaveVectors vectors;
     WaveModes modes;
-    History history;  // of modes
-    double *now;      // modes
+    History history;  // of modes, then of their products with each other, [pair][shell]
+    double *now;      // the same
     int64_t *begun;   // [waiting time, or one]: origins seen
     double *at_begin; // [waiting time, or one][pair][shell]: products at the origins
-    double *products; // [row of lags][pair][shell]
+    double *products; // [row of lags][pair][shell]: of the modes at an origin and after the lag
+    double *ends;     // [row of lags][pair][shell]: means of the products at both ends
 } Collective;
 
 static const CollectiveSettings *settings_in(const Settings *settings) {
@@ -119,11 +122,12 @@ static Status allocate(Collective *self, const CollectiveSettings *settings, con
     self->pairs = pair_count(state->system.species_count);
     TRY(wave_vectors_make(&self->vectors, &state->box, shells, count, settings->vectors));
     TRY(wave_modes_make(&self->modes, &self->vectors, state));
-    TRY(history_make(&self->history, lags, self->modes.width));
-    TRY(NEW_ARRAY(self->now, self->modes.width));
+    TRY(history_make(&self->history, lags, self->modes.width + row_size(self)));
+    TRY(NEW_ARRAY(self->now, self->history.width));
     TRY(NEW_ARRAY(self->begun, groups_of(lags)));
     TRY(NEW_ARRAY(self->at_begin, groups_of(lags) * row_size(self)));
-    return NEW_ARRAY(self->products, lags_rows(lags) * row_size(self));
+    TRY(NEW_ARRAY(self->products, lags_rows(lags) * row_size(self)));
+    return NEW_ARRAY(self->ends, lags_rows(lags) * row_size(self));
 }
 
 static void discard(Observer *observer) {
@@ -135,6 +139,7 @@ static void discard(Observer *observer) {
     memory_free(self->begun);
     memory_free(self->at_begin);
     memory_free(self->products);
+    memory_free(self->ends);
     memory_free(self);
 }
 
@@ -163,24 +168,40 @@ static void add_products(const Collective *self, const double *then, double *sum
     wave_modes_add_products(&self->modes, &self->vectors, then, self->now, sums);
 }
 
+static void add_row(Collective *self, size_t row, const double *then) {
+    const double *one = then + self->modes.width, *other = self->now + self->modes.width;
+    double *ends = self->ends + row * row_size(self);
+    add_products(self, then, self->products + row * row_size(self));
+    for (size_t i = 0; i < row_size(self); i++) ends[i] += 0.5 * one[i] + 0.5 * other[i];
+}
+
+static void look(Collective *self, const State *state) {
+    double *products = self->now + self->modes.width;
+    wave_modes_find(&self->modes, state, self->now);
+    memset(products, 0, row_size(self) * sizeof *products);
+    add_products(self, self->now, products);
+}
+
 static void begin(Collective *self, int64_t tick) {
     const Lags *lags = &self->history.lags;
     const int64_t slot = lags_slot(lags, tick);
     if (slot == LAGS_NO_ORIGIN) return;
     const size_t group = lags->waits > 0 ? (size_t)slot : 0;
+    const double *products = self->now + self->modes.width;
+    double *sums = self->at_begin + group * row_size(self);
+    for (size_t i = 0; i < row_size(self); i++) sums[i] += products[i];
     self->begun[group]++;
-    add_products(self, self->now, self->at_begin + group * row_size(self));
     history_keep(&self->history, tick, self->now);
 }
 
 static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
     (void)tally;
     Collective *self = (Collective *)observer;
-    wave_modes_find(&self->modes, state, self->now);
+    look(self, state);
     for (size_t k = 0; k < self->history.lags.count; k++) {
         size_t row = 0;
         const double *then = history_begun(&self->history, tick, k, &row);
-        if (then) add_products(self, then, self->products + row * row_size(self));
+        if (then) add_row(self, row, then);
     }
     begin(self, tick);
     return OK;
@@ -196,38 +217,50 @@ static void archive(Observer *observer, Archive *archive) {
     archive_i64(archive, self->begun, groups_of(lags));
     archive_f64(archive, self->at_begin, groups_of(lags) * row_size(self));
     archive_f64(archive, self->products, lags_rows(lags) * row_size(self));
+    archive_f64(archive, self->ends, lags_rows(lags) * row_size(self));
 }
 
-// Sums and origins of a waiting time and of time 0 or lag number `time` - 1.
-static const double *sums_at(const Collective *self, size_t group, size_t time, double *origins) {
+// Sums of a waiting time and of time 0 or lag number `time` - 1, and from how many origins: of the
+// functions, or of the structure factors at the ends.
+static const double *sums_at(const Collective *self, bool at_ends, size_t group, size_t time,
+                             double *origins) {
     if (time == 0) {
         *origins = (double)self->begun[group];
         return self->at_begin + group * row_size(self);
     }
     const size_t row = group * self->history.lags.count + time - 1;
     *origins = (double)self->history.seen[row];
-    return self->products + row * row_size(self);
+    return (at_ends ? self->ends : self->products) + row * row_size(self);
 }
 
-// values[pair][shell][waiting time][time], the last pair their total.
-static void fill(const Collective *self, size_t particles, double *values) {
+// value[pair * stride], of one shell and time; the last pair their total, F_ab and F_ba each
+// counted.
+static void fill_pairs(const Collective *self, const double *sums, double samples, size_t stride,
+                       double *value) {
+    double total = 0;
+    size_t pair = 0;
+    for (size_t a = 0; a < self->modes.species_count; a++) {
+        for (size_t b = a; b < self->modes.species_count; b++, pair++) {
+            const double partial = sums[pair * self->vectors.shells] / samples;
+            value[pair * stride] = partial;
+            total += a == b ? partial : 2 * partial;
+        }
+    }
+    value[pair * stride] = total;
+}
+
+// values[pair][shell][waiting time][time].
+static void fill(const Collective *self, bool at_ends, size_t particles, double *values) {
     const size_t times = self->history.lags.count + 1, groups = groups_of(&self->history.lags);
-    const size_t shells = self->vectors.shells, species_count = self->modes.species_count;
+    const size_t stride = self->vectors.shells * groups * times;
     for (size_t group = 0; group < groups; group++) {
         for (size_t time = 0; time < times; time++) {
             double origins = 0;
-            const double *sums = sums_at(self, group, time, &origins);
-            for (size_t k = 0; k < shells; k++) {
+            const double *sums = sums_at(self, at_ends, group, time, &origins);
+            for (size_t k = 0; k < self->vectors.shells; k++) {
                 const double samples = origins * self->vectors.members[k] * (double)particles;
-                double *value = values + (k * groups + group) * times + time, total = 0;
-                for (size_t a = 0, pair = 0; a < species_count; a++) {
-                    for (size_t b = a; b < species_count; b++, pair++) {
-                        const double partial = sums[pair * shells + k] / samples;
-                        value[pair * shells * groups * times] = partial;
-                        total += a == b ? partial : 2 * partial; // F_ab and F_ba
-                    }
-                }
-                value[self->pairs * shells * groups * times] = total;
+                fill_pairs(self, sums + k, samples, stride,
+                           values + (k * groups + group) * times + time);
             }
         }
     }
@@ -244,12 +277,15 @@ static size_t time_axes(const Collective *self, double *times, ResultAxis *axes)
     return count;
 }
 
-static Status put(const Collective *self, const Labels *pairs, double *times, double *values,
-                  Results *results, size_t replica) {
+static Status put(const Collective *self, const State *state, const Labels *pairs, double *times,
+                  double *values, Results *results, size_t replica) {
+    static const char *const names[] = {"collective_scattering", "collective_scattering_ends"};
+    static const char *const abouts[] = {
+        "Collective intermediate scattering functions F_ab(q,t) = <rho_a*(0) rho_b(t)>/N; total: "
+        "their sum over all ordered pairs; at t = 0 the structure factor.",
+        "Structure factors over both ends of every stretch of time from which F_ab(q,t) was seen."};
     ResultSeries shape = {
         .unit = "",
-        .about = "Collective intermediate scattering functions F_ab(q,t) = <rho_a*(0) rho_b(t)>/N; "
-                 "total: their sum over all ordered pairs; at t = 0 the structure factor.",
         .axes = 2,
         .axis = {{.name = "pair", .unit = "", .count = pairs->count, .labels = pairs->names},
                  {.name = "wave_number",
@@ -257,8 +293,12 @@ static Status put(const Collective *self, const Labels *pairs, double *times, do
                   .count = self->vectors.shells,
                   .values = self->vectors.wave_number}}};
     shape.axes += time_axes(self, times, shape.axis + shape.axes);
-    return observer_put_series(&self->observer, "collective_scattering", &shape, results, replica,
-                               values);
+    for (size_t k = 0; k < 2; k++) {
+        snprintf(shape.about, sizeof shape.about, "%s", abouts[k]);
+        fill(self, k == 1, state->count, values);
+        TRY(observer_put_series(&self->observer, names[k], &shape, results, replica, values));
+    }
+    return OK;
 }
 
 static Status write(const Observer *observer, const State *state, Results *results,
@@ -271,10 +311,7 @@ static Status write(const Observer *observer, const State *state, Results *resul
     Status status =
         NEW_ARRAY(values, pairs.count * self->vectors.shells * groups_of(lags) * (lags->count + 1));
     if (status == OK) status = NEW_ARRAY(times, lags_axis_values(lags) + 1);
-    if (status == OK) {
-        fill(self, state->count, values);
-        status = put(self, &pairs, times, values, results, replica);
-    }
+    if (status == OK) status = put(self, state, &pairs, times, values, results, replica);
     memory_free(values);
     memory_free(times);
     return status;
@@ -288,11 +325,11 @@ static size_t memory(const Settings *settings_, const System *system, const Cloc
     const Lags lags = lags_chosen(&settings->lags, clock);
     const double last = shells[count - 1].high;
     const double vectors = wave_vectors_most(&box, last, count, settings->vectors);
-    const size_t frame = 2 * system->species_count * (size_t)vectors;
     const size_t sums = pair_count(system->species_count) * count;
+    const size_t frame = 2 * system->species_count * (size_t)vectors + sums;
     return sizeof(Collective) + wave_vectors_memory(&box, last, count, settings->vectors) +
            history_memory(&lags, frame) +
-           (frame + (groups_of(&lags) + lags_rows(&lags)) * sums) * sizeof(double);
+           (frame + (groups_of(&lags) + 2 * lags_rows(&lags)) * sums) * sizeof(double);
 }
 
 const ObservableKind observable_collective_scattering = {
