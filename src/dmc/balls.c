@@ -374,6 +374,7 @@ const ChainKind chain_of_balls = {
     .run = run,
     .publish = publish,
     .rescale = rescale,
+    .squeeze = rescale,
     .free = balls_free,
     .memory = memory,
 };

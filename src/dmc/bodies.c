@@ -217,13 +217,17 @@ static void draw_block(Bodies *bodies, int64_t block) {
     bodies->kernel->draw(bodies->draws, &bodies->settings, bodies->count, words, normals);
 }
 
+static Status renew_lists(Bodies *bodies) {
+    return bodies->stale ? bodies_lists_build(bodies, fmax(bodies->lists.scale, bodies->scale))
+                         : OK;
+}
+
 static Status run(Chain *chain, int64_t trials, Tally *tally) {
     Bodies *bodies = (Bodies *)chain;
     int64_t *step = &bodies->state->step;
     const int64_t end = *step + trials;
     while (*step < end) {
-        if (bodies->stale)
-            TRY(bodies_lists_build(bodies, fmax(bodies->lists.scale, bodies->scale)));
+        TRY(renew_lists(bodies));
         const int64_t block = *step / TRIALS, from = *step % TRIALS;
         const int64_t to = end - block * TRIALS < TRIALS ? end - block * TRIALS : TRIALS;
         draw_block(bodies, block);
@@ -232,6 +236,8 @@ static Status run(Chain *chain, int64_t trials, Tally *tally) {
     }
     return OK;
 }
+
+// Sizes
 
 static const double AHEAD = 1.02; // what lists are made for, of the scale asked for
 
@@ -242,19 +248,59 @@ static bool has_room(const Bodies *bodies) {
 
 // Lists are made for bodies somewhat larger than asked for, so that slow growth needs new ones
 // rarely.
+static bool set_scale(Bodies *bodies, double scale) {
+    const BodyLists *lists = &bodies->lists;
+    set_sizes(bodies, scale);
+    if (!has_room(bodies)) return false;
+    if (!bodies->stale && scale <= lists->scale && scale >= lists->scale / AHEAD / AHEAD) {
+        return true;
+    }
+    return bodies_lists_build(bodies, AHEAD * scale) == OK;
+}
+
+static void set_scale_back(Bodies *bodies, double scale) {
+    set_sizes(bodies, scale);
+    bodies->stale |= scale > bodies->lists.scale;
+}
+
 static bool rescale(Chain *chain, double scale) {
     Bodies *bodies = (Bodies *)chain;
     const double before = bodies->scale;
-    set_sizes(bodies, scale);
-    BodyLists *lists = &bodies->lists;
-    bool fits = has_room(bodies);
-    if (fits && (bodies->stale || scale > lists->scale || scale < lists->scale / AHEAD / AHEAD)) {
-        fits = bodies_lists_build(bodies, AHEAD * scale) == OK;
+    if (set_scale(bodies, scale) && first_overlapping(bodies) == bodies->count) return true;
+    set_scale_back(bodies, before);
+    return false;
+}
+
+// Trials of this body alone, until one is accepted: then it overlaps nothing.
+static bool part(Bodies *bodies, size_t i) {
+    static const int ATTEMPTS = 30;
+    Tally unread = {0};
+    for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
+        if (renew_lists(bodies) != OK) return false;
+        const int64_t step = bodies->state->step++;
+        draw_block(bodies, step / TRIALS);
+        if (bodies->kernel->try_body(bodies, bodies->draws, (size_t)(step % TRIALS), i, &unread)) {
+            return true;
+        }
     }
-    fits = fits && first_overlapping(bodies) == bodies->count;
-    if (fits) return true;
-    set_sizes(bodies, before);
-    bodies->stale |= before > lists->scale;
+    return false;
+}
+
+// One that cannot part may be left by whom it overlaps.
+static bool part_all(Bodies *bodies) {
+    bool sure = true;
+    for (size_t i = 0; i < bodies->count; i++) {
+        if (bodies->kernel->overlaps(bodies, i)) sure &= part(bodies, i);
+    }
+    return sure || first_overlapping(bodies) == bodies->count;
+}
+
+// Where nothing overlaps at the larger size, nothing does at the smaller one.
+static bool squeeze(Chain *chain, double scale) {
+    Bodies *bodies = (Bodies *)chain;
+    const double before = bodies->scale;
+    if (set_scale(bodies, scale) && part_all(bodies)) return true;
+    set_scale_back(bodies, before);
     return false;
 }
 
@@ -272,6 +318,7 @@ const ChainKind chain_of_bodies = {
     .run = run,
     .publish = publish,
     .rescale = rescale,
+    .squeeze = squeeze,
     .free = discard,
     .memory = memory,
 };

@@ -74,6 +74,8 @@ typedef struct BodiesKernel {
                  double *const normals[3]);
     // Trials `from` to `to` of the block; returns how many were made: fewer if lists are stale.
     size_t (*try_moves)(Bodies *bodies, const Draws *draws, size_t from, size_t to, Tally *tally);
+    // Trial k of the block, of body i whatever was drawn; whether it was accepted.
+    bool (*try_body)(Bodies *bodies, const Draws *draws, size_t k, size_t i, Tally *tally);
     void (*anchor)(Bodies *bodies, size_t i); // where it is, and lists it anew
     bool (*overlaps)(Bodies *bodies, size_t i);
 } BodiesKernel;

@@ -358,9 +358,10 @@ KERNEL bool trial_overlaps(const int flat, const int mixed, const Bodies *bodies
                            lists->held[i]);
 }
 
-KERNEL void try_move(const int flat, const int mixed, Bodies *bodies, const Draws *draws, size_t k,
-                     Tally *tally) {
-    const size_t i = draws->body[k], species = bodies->state->species_of[i];
+// Trial k of the block, of body i; whether it was accepted.
+KERNEL bool try_move(const int flat, const int mixed, Bodies *bodies, const Draws *draws, size_t k,
+                     size_t i, Tally *tally) {
+    const size_t species = bodies->state->species_of[i];
     const Amplitude *amplitude = &bodies->amplitude[species];
     Pose *now = &bodies->pose[i], then;
     Proposal proposal;
@@ -377,17 +378,20 @@ KERNEL void try_move(const int flat, const int mixed, Bodies *bodies, const Draw
     MoveTally *moves = &tally->moves[species];
     moves->trials++;
     float way;
-    if (trial_overlaps(flat, mixed, bodies, i, &then, &tried, &way)) return;
+    if (trial_overlaps(flat, mixed, bodies, i, &then, &tried, &way)) return false;
     bodies_count_accepted(moves, &proposal, now->axis);
     *now = then;
     bodies->row[i] = tried.row;
     if (way > bodies->lists.rest) anchor(flat, bodies, i);
+    return true;
 }
 
 KERNEL size_t try_moves(const int flat, const int mixed, Bodies *bodies, const Draws *draws,
                         size_t from, size_t to, Tally *tally) {
     size_t k = from;
-    while (k < to && !bodies->stale) try_move(flat, mixed, bodies, draws, k++, tally);
+    for (; k < to && !bodies->stale; k++) {
+        try_move(flat, mixed, bodies, draws, k, draws->body[k], tally);
+    }
     return k - from;
 }
 
@@ -401,6 +405,10 @@ static void draw(Draws *draws, const ChainSettings *settings, size_t count, cons
     static size_t try_moves_##name(Bodies *bodies, const Draws *draws, size_t from, size_t to,     \
                                    Tally *tally) {                                                 \
         return try_moves(flat, mixed, bodies, draws, from, to, tally);                             \
+    }                                                                                              \
+    static bool try_body_##name(Bodies *bodies, const Draws *draws, size_t k, size_t i,            \
+                                Tally *tally) {                                                    \
+        return try_move(flat, mixed, bodies, draws, k, i, tally);                                  \
     }                                                                                              \
     static void anchor_##name(Bodies *bodies, size_t i) {                                          \
         anchor(flat, bodies, i);                                                                   \
@@ -417,7 +425,7 @@ INSTANCE(discs_and_balls, 1, 1)
 #undef INSTANCE
 
 #define ROW(name)                                                                                  \
-    { draw, try_moves_##name, anchor_##name, overlaps_##name }
+    { draw, try_moves_##name, try_body_##name, anchor_##name, overlaps_##name }
 #define BODIES_KERNEL(path)                                                                        \
     const BodiesKernel bodies_kernels_##path[2][2] = {{ROW(rods), ROW(rods_and_balls)},            \
                                                       {ROW(discs), ROW(discs_and_balls)}};

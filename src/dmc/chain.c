@@ -34,6 +34,10 @@ bool chain_rescale(Chain *chain, double scale) {
     return chain->kind->rescale(chain, scale);
 }
 
+bool chain_squeeze(Chain *chain, double scale) {
+    return chain->kind->squeeze(chain, scale);
+}
+
 size_t chain_memory(const System *system) {
     return kind_for(system)->memory(system);
 }

@@ -43,6 +43,7 @@ typedef struct ChainKind {
     Status (*run)(Chain *chain, int64_t trials, Tally *tally);
     void (*publish)(Chain *chain);
     bool (*rescale)(Chain *chain, double scale);
+    bool (*squeeze)(Chain *chain, double scale);
     void (*free)(Chain *chain);
     size_t (*memory)(const System *system);
 } ChainKind;
@@ -76,6 +77,10 @@ void chain_publish(Chain *chain);
 // Sets all sizes to `scale` times those of the State; false, with nothing changed, if something
 // would overlap. Sizes of the State itself never change.
 bool chain_rescale(Chain *chain, double scale);
+
+// The same for growth, but bodies that would overlap are moved by trials of their own, which count
+// as steps, until they do not (balls are not). false: the sizes are as before.
+bool chain_squeeze(Chain *chain, double scale);
 
 size_t chain_memory(const System *system);            // bytes
 double chain_seconds_per_trial(const System *system); // rough, of one core

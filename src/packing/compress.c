@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Slow compression of bodies by Monte Carlo. After every cycle of trials all sizes are tried a
-// little larger; how much is halved where something would overlap and doubled slowly where nothing
-// does, so that about every other trial of growth succeeds and the bodies stay near equilibrium. In
-// the box of the end that is compression at constant shape.
+// Slow compression of bodies by Monte Carlo. After every cycle of trials all sizes grow a little;
+// bodies that then overlap are moved by trials of their own until they do not, so that no single
+// pair holds the others up. How much is halved where that fails and doubled slowly where it
+// succeeds, but never more than what moves of this length relax: where steps become short, growth
+// becomes slow, and what wants to align has time to. In the box of the end that is compression at
+// constant shape.
 #include "packing/compress.h"
 
 #include "base/memory.h"
@@ -18,7 +20,8 @@ static const double SHORTER = 0.8, LONGER = 1.2; // steps, where it is not
 static const double STEP = 0.2, STEP_MOST = 2;   // half-width, in d of the species; first, largest
 static const double TURN_MOST = 0.5;             // of a tangent rotation
 static const double GROWTH = 1e-3, GROWTH_MOST = 4e-3; // of the scale in a cycle; first, largest
-static const double FASTER = 1.4, SLOWER = 0.6; // growth, after a trial that succeeded or failed
+static const double FASTER = 1.4, SLOWER = 0.6;        // growth, after it succeeded or failed
+static const double RELAXED = 0.012; // largest growth, of the square of the step in diameters
 
 typedef struct Compression {
     State *state;
@@ -90,14 +93,21 @@ static Status run_cycle(Compression *compression) {
     return OK;
 }
 
-static void grow(Compression *compression) {
-    const double wanted = fmin(1 + COMPRESS_MARGIN, compression->scale * (1 + compression->growth));
-    if (!chain_rescale(compression->chain, wanted)) {
-        compression->growth *= SLOWER;
-        return;
+static double largest_growth(const Compression *compression) {
+    double largest = GROWTH_MOST;
+    for (size_t s = 0; s < compression->state->system.species_count; s++) {
+        const double step = compression->step[s] / compression->state->system.species[s].diameter;
+        largest = fmin(largest, RELAXED * step * step);
     }
-    compression->scale = wanted;
-    compression->growth = fmin(GROWTH_MOST, compression->growth * FASTER);
+    return largest;
+}
+
+static void grow(Compression *compression) {
+    compression->growth = fmin(compression->growth, largest_growth(compression));
+    const double wanted = fmin(1 + COMPRESS_MARGIN, compression->scale * (1 + compression->growth));
+    const bool fits = chain_squeeze(compression->chain, wanted);
+    compression->growth *= fits ? FASTER : SLOWER;
+    if (fits) compression->scale = wanted;
 }
 
 static Status fail_jammed(const Compression *compression) {

@@ -35,7 +35,7 @@ static const double EQUAL_MOST[2] = {0.86, 0.60}, UNEQUAL_MOST[2] = {0.83, 0.62}
 
 // Densities that compression of bodies from a dilute disorder reaches in reasonable time: packing
 // fraction of spherocylinders and spheres, number density of platelets in 1/d^3.
-static const double RODS_MOST = 0.5, PLATELETS_MOST = 5;
+static const double RODS_MOST = 0.5, PLATELETS_MOST = 12;
 static const double SOFT_PACKING = 0.5; // of the hard spheres that soft ones begin as
 
 static bool has_shape(const System *system, ShapeKind shape) {
