@@ -94,9 +94,10 @@ static double contact_value(const System *system) {
     // B3/B2^2 of platelets: Eppenga and Frenkel, Mol. Phys. 52, 1303 (1984).
     if (has_shape(system, SHAPE_PLATELET)) return 1 + 0.4447 * second_virial(system);
     if (!has_shape(system, SHAPE_SPHEROCYLINDER)) return contact_of_balls(system);
-    // Parsons (1979) and Lee (1987): the density dependence of spheres.
+    // Parsons (1979) and Lee (1987): Z - 1 over that of second virial coefficients depends on the
+    // density as for spheres, for which it is the contact value of Carnahan and Starling.
     const double phi = fmin(system_packing_fraction(system), DENSEST_KNOWN);
-    return (1 - 0.75 * phi) / ((1 - phi) * (1 - phi));
+    return (1 - phi / 2) / pow(1 - phi, 3);
 }
 
 // Mean square of the lever of a point of the surface, for rotations about one axis across the
