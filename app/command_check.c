@@ -100,8 +100,27 @@ static void print_cost(const Plan *plan) {
     printf(" for all on %.0f cores, without packing\n", cores);
 }
 
+static void print_theory(const TheoryPlan *theory) {
+    printf("theory    %d dimensions, structure: %s\n", (int)theory->dimension,
+           theory_structure_name(theory));
+    printf("          %lld wave numbers up to %.6g/d\n", (long long)theory->wave_numbers,
+           theory->last_wave_number);
+    printf("species   %-16s %10s %10s %10s\n", "", "fraction", "diameter/d", "D/D0");
+    for (size_t a = 0; a < theory->species_count; a++)
+        printf("          %-16s %10.6g %10.6g %10.6g\n", theory->species[a].name,
+               theory->species[a].fraction, theory->species[a].diameter,
+               theory->species[a].diffusion);
+    printf("memory    %.3g MiB\ntime      about ", (double)theory_memory(theory) / MEBIBYTE);
+    print_seconds(theory_seconds(theory));
+    printf("\n");
+}
+
 static Status print_plan(const Plan *plan) {
     if (plan->title[0] != '\0') printf("%s\n", plan->title);
+    if (plan_is_theory(plan)) {
+        print_theory(&plan->theory);
+        return OK;
+    }
     print_system(&plan->system);
     print_species(&plan->system);
     for (size_t s = 0; s < plan->stage_count; s++) TRY(print_stage(plan, s));

@@ -36,7 +36,7 @@ static void put_progress(Text *line, const EnsembleProgress *progress) {
              progress->stage);
     if (progress->stage_unit)
         text_add(line, " t = %.3g %s", progress->stage_time, progress->stage_unit);
-    text_add(line, "  %.3g particle steps/s", progress->rate);
+    if (progress->rate > 0) text_add(line, "  %.3g particle steps/s", progress->rate);
 }
 
 // A line that a terminal breaks could not be written over by the next: what has no room is cut.

@@ -65,8 +65,9 @@ static Status placed(const Node *root, const Node *node, Status status) {
     key_of(key, sentence);
     const Node *species = species_named(root, sentence);
     const bool of_species = strncmp(sentence, "species '", strlen("species '")) == 0;
+    const Node *system = tree_find(root, "system"); // a run of the theory has none
     const Node *places[] = {tree_find(node, key), species ? tree_find(species, key) : NULL,
-                            tree_find(tree_find(root, "system"), key),
+                            system ? tree_find(system, key) : NULL,
                             of_species || key[0] ? species : NULL, node};
     size_t first = 0;
     while (!places[first]) first++;
@@ -282,11 +283,25 @@ Status judge_plan(const Node *root, const Plan *plan) {
     return placed(root, root, plan_check(plan));
 }
 
+Status judge_theory(const Node *root, const TheoryPlan *theory) {
+    const Node *map = tree_find(root, "theory"), *species = tree_find(map, "species");
+    double sum = 0;
+    for (size_t a = 0; a < theory->species_count; a++) sum += theory->species[a].fraction;
+    if (!(fabs(sum - 1) <= FRACTIONS_OFF))
+        return tree_fail(species, "the fractions of the species add to %.10g; they must add to 1",
+                         sum);
+    return placed(root, map, theory_check(theory));
+}
+
 Status judge_memory(const Node *root, const Plan *plan) {
     static const double GIBIBYTE = 1073741824;
     const double there = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
     const double needed = (double)plan_memory(plan);
     if (there <= 0 || needed <= there) return OK;
+    if (plan_is_theory(plan))
+        return tree_fail(place(root, "theory", "wave_numbers"),
+                         "%lld wave numbers need %.3g GiB of memory; this machine has %.3g GiB",
+                         (long long)plan->theory.wave_numbers, needed / GIBIBYTE, there / GIBIBYTE);
     char particles[NUMBER_SIZE];
     return tree_fail(
         place(root, "system", "particles"),

@@ -9,5 +9,8 @@
 // `root` is the run file that became this plan.
 Status judge_plan(const Node *root, const Plan *plan);
 
+// Likewise a run of the theory.
+Status judge_theory(const Node *root, const TheoryPlan *theory);
+
 // BAD_DATA if one replica does not fit into the memory of this machine.
 Status judge_memory(const Node *root, const Plan *plan);

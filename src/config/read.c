@@ -237,10 +237,52 @@ static Status read_optional(const Node *root, const char *name, const OptionTabl
     return map ? read_section(name, table, settings, NULL, map, true) : OK;
 }
 
+static Status read_theory_species(const Node *node, TheorySpecies *species) {
+    TRY(check_name(node, "species", node->key, THEORY_NAME_SIZE));
+    TRY(options_default(&theory_species_options, species));
+    strcpy(species->name, node->key);
+    char name[THEORY_NAME_SIZE + sizeof "species ''"];
+    snprintf(name, sizeof name, "species '%s'", species->name);
+    return read_section(name, &theory_species_options, species, NULL, node, true);
+}
+
+// A run of the theory has no other section.
+static Status check_alone(const Node *root) {
+    static const char *const allowed[] = {"title", "theory", "sweep"};
+    for (const Node *node = root->first; node; node = node->next) {
+        bool known = false;
+        for (size_t i = 0; i < COUNT(allowed); i++) known = known || !strcmp(node->key, allowed[i]);
+        if (!known) return tree_fail(node, "a run file with 'theory' has no '%s'", node->key);
+    }
+    return OK;
+}
+
+static Status read_theory(const Node *root, const Node *map, Plan *plan) {
+    static const char *const others[] = {"species", NULL};
+    const Node *species = NULL;
+    TheoryPlan *theory = &plan->theory;
+    TRY(check_alone(root));
+    TRY(options_default(&theory_options, theory));
+    TRY(read_section("theory", &theory_options, theory, others, map, true));
+    TRY(find_required(map, "species", "a map from names to particles", &species));
+    if (species->kind != NODE_MAP || species->count == 0)
+        return tree_fail(species, "species is a map from names to particles, such as "
+                                  "{small: {diameter: 1, fraction: 1}}");
+    if (species->count > MIXTURE_SPECIES_MOST)
+        return tree_fail(species, "%zu species; at most %d have room", species->count,
+                         MIXTURE_SPECIES_MOST);
+    for (const Node *node = species->first; node; node = node->next)
+        TRY(read_theory_species(node, &theory->species[theory->species_count++]));
+    plan->ensemble.replicas = 1;
+    return judge_theory(root, theory);
+}
+
 static Status read_plan(const Node *root, Plan *plan) {
     const Node *dynamics = NULL;
     TRY(options_default(&section_title_options, plan));
     TRY(read_section("the run file", &section_title_options, plan, section_root_keys, root, true));
+    const Node *theory = tree_find(root, "theory");
+    if (theory) return read_theory(root, theory, plan);
     TRY(read_system(root, &plan->system));
     TRY(find_required(root, "dynamics", "how time advances, as {method: event-driven}", &dynamics));
     TRY(read_dynamics(dynamics, "dynamics", &plan->dynamics));

@@ -33,8 +33,8 @@ static const Option range_rows[] = {
 const OptionTable section_range_options = {range_rows, sizeof range_rows / sizeof *range_rows,
                                            sizeof(SweepRange)};
 
-const char *const section_root_keys[] = {"system",   "dynamics", "protocol", "observe",
-                                         "ensemble", "output",   "sweep",    NULL};
+const char *const section_root_keys[] = {"system", "dynamics", "protocol", "observe", "ensemble",
+                                         "output", "sweep",    "theory",   NULL};
 
 static const Section before_methods[] = {
     {"", NULL, "A run file is one YAML map of sections.", &section_title_options},
@@ -67,6 +67,14 @@ static const Section after_observables[] = {
      "together, as functions of what is swept.",
      NULL},
     {"sweep.PATH", NULL, "A range of values in place of a list.", &section_range_options},
+    {"theory", NULL,
+     "Structure factors and mode-coupling theory of hard discs and spheres, in place of system, "
+     "dynamics and protocol: a run file has one or the other.",
+     &theory_options},
+    {"theory.species.NAME", NULL,
+     "One kind of particles of the theory, under a name of your choice. The first sets the unit of "
+     "time by its free diffusion coefficient D0.",
+     &theory_species_options},
 };
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
@@ -138,9 +146,10 @@ static const struct {
     {"strain", "this version has no shear; give the stage a time"},
     {"oscillate", "this version has no oscillatory shear; its stages are at rest"},
     {"pull", "this version pulls no particle; its stages are at rest"},
-    {"theory", "this version has no theory; give system, dynamics and protocol"},
-    {"schematic", "this version has no theory; give system, dynamics and protocol"},
-    {"itt", "this version has no theory; give system, dynamics and protocol"},
+    {"schematic", "this version has no schematic models; theory has the equations for discs and "
+                  "spheres"},
+    {"itt", "this version has no theory under shear; theory has it at rest"},
+    {"closure", "where the theory takes its structure from is called structure"},
     {"stress", "this version does not measure it; pressure is there"},
     {"coherent_scattering", "it is called collective_scattering"},
     {"N", "the number of particles is called particles"},

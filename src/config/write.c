@@ -101,9 +101,23 @@ static void write_stage(const Stage *stage, Text *text) {
     }
 }
 
+static void write_theory(const TheoryPlan *theory, Text *text) {
+    text_add(text, "\ntheory:\n");
+    write_table(&theory_options, NULL, theory, STEP, text);
+    text_add(text, "  species:\n");
+    for (size_t a = 0; a < theory->species_count; a++) {
+        text_add(text, "    %s:\n", theory->species[a].name);
+        write_table(&theory_species_options, NULL, &theory->species[a], 3 * STEP, text);
+    }
+}
+
 static void write_plan(const Plan *plan, Text *text) {
     text_add(text, "# A run file with every value written out; `perrin explain KEY` says more.\n");
     write_table(&section_title_options, NULL, plan, 0, text);
+    if (plan_is_theory(plan)) {
+        write_theory(&plan->theory, text);
+        return;
+    }
     write_system(&plan->system, text);
     text_add(text, "\n");
     write_dynamics(&plan->dynamics, 0, text);

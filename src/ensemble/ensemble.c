@@ -188,6 +188,7 @@ static Status put_speed(const EnsembleShared *shared) {
     char text[64];
     snprintf(text, sizeof text, "%.3f", seconds);
     TRY(results_put_fact(shared->results, "cpu_seconds", text));
+    if (plan_is_theory(shared->plan)) return OK;
     snprintf(text, sizeof text, "%.3f", packing);
     TRY(results_put_fact(shared->results, "packing_seconds", text));
     snprintf(text, sizeof text, "%.2f", steps > 0 ? 1e9 * seconds / steps : 0.0);
@@ -206,7 +207,7 @@ Status ensemble_finish(Ensemble *ensemble, Results **out) {
         }
     }
     if (shared->failure != OK) return status_fail(shared->failure, "%s", shared->sentence);
-    TRY(put_health(shared));
+    if (!plan_is_theory(shared->plan)) TRY(put_health(shared));
     TRY(put_speed(shared));
     *out = shared->results;
     shared->results = NULL;

@@ -25,6 +25,13 @@ static double monotonic_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+// CPU time of this thread.
+static double thread_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
 static Status open_replica(Run *run) {
     const Plan *plan = run->shared->plan;
     void *bytes = NULL;
@@ -166,7 +173,41 @@ static Status run_unit(Run *run) {
     return collect(run);
 }
 
+static void tell_theory(EnsembleShared *shared, const Theory *theory, bool running) {
+    Unit *unit = &shared->units[0];
+    pthread_mutex_lock(&shared->mutex);
+    unit->running = running;
+    unit->fraction = theory_progress(theory);
+    unit->stage = theory_doing(theory);
+    unit->stage_time = theory_time(theory);
+    unit->stage_unit = unit->stage_time > 0 ? "d^2/D0" : NULL;
+    unit->finished = theory_finished(theory);
+    unit->cpu_seconds = thread_seconds();
+    pthread_mutex_unlock(&shared->mutex);
+}
+
+// The one unit of a run of the theory, which alone puts results in. It keeps no checkpoints.
+static Status run_theory(EnsembleShared *shared, Theory *theory) {
+    tell_theory(shared, theory, true);
+    while (!theory_finished(theory)) {
+        if (atomic_load(&shared->stop)) return status_fail(INTERRUPTED, "the theory was stopped");
+        TRY(theory_advance(theory, shared->results));
+        tell_theory(shared, theory, true);
+    }
+    return OK;
+}
+
+static Status unit_theory(EnsembleShared *shared) {
+    Theory *theory = NULL;
+    TRY(theory_create(&theory, &shared->plan->theory));
+    const Status status = run_theory(shared, theory);
+    tell_theory(shared, theory, false);
+    theory_free(theory);
+    return status;
+}
+
 Status unit_run(EnsembleShared *shared, size_t replica) {
+    if (plan_is_theory(shared->plan)) return unit_theory(shared);
     Run run = {.shared = shared, .index = replica};
     Status status = run_unit(&run);
     // A trajectory that cannot be closed may have lost frames: that is a failure like another.

@@ -15,7 +15,7 @@
 enum { BLOCK = 128, ITERATIONS_MOST = 5000 };
 static const double CONVERGED = 1e-10; // change of Phi/S in an iteration
 static const double TAYLOR_END = 1e-3; // q^2 D t at the end of the expansion, for the largest q
-static const double MASTER_END = 1e-9; // time at the end of form - amplitude t^b
+static const double MASTER_END = 1e-6; // time at the end of form - amplitude t^b
 
 struct Correlators {
     const Grid *grid;

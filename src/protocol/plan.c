@@ -39,6 +39,10 @@ static const Option output_rows[] = {
 const OptionTable output_options = {output_rows, sizeof output_rows / sizeof *output_rows,
                                     sizeof(OutputPlan)};
 
+bool plan_is_theory(const Plan *plan) {
+    return plan->theory.species_count > 0;
+}
+
 static const double TICKS_MOST = 4e18; // an int64 count of ticks with room to add
 
 Clock plan_clock(const Plan *plan, size_t stage) {
@@ -121,6 +125,7 @@ static Status check_output(const Plan *plan) {
 }
 
 Status plan_check(const Plan *plan) {
+    if (plan_is_theory(plan)) return theory_check(&plan->theory);
     TRY(check_system(&plan->system));
     TRY(check_output(plan));
     if (plan->stage_count < 1) return status_fail(BAD_DATA, "a protocol needs a stage");
@@ -129,6 +134,7 @@ Status plan_check(const Plan *plan) {
 }
 
 size_t plan_memory(const Plan *plan) {
+    if (plan_is_theory(plan)) return theory_memory(&plan->theory);
     const size_t particles = (size_t)plan->system.particles;
     const size_t state =
         particles * (1 + 2 * sizeof(double) + 3 * (3 * sizeof(double) + sizeof(int32_t)));
@@ -147,6 +153,7 @@ size_t plan_memory(const Plan *plan) {
 }
 
 double plan_seconds(const Plan *plan) {
+    if (plan_is_theory(plan)) return theory_seconds(&plan->theory);
     double seconds = 0;
     for (size_t s = 0; s < plan->stage_count; s++) {
         const Dynamics *dynamics = &plan->stages[s].dynamics;

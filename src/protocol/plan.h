@@ -6,6 +6,7 @@
 #include "observables/observables.h"
 #include "propagator/propagator.h"
 #include "state/system.h"
+#include "theory/theory.h"
 
 enum { STAGES_MOST = 16, OBSERVATIONS_MOST = 16, TITLE_SIZE = OPTION_TEXT_SIZE };
 
@@ -41,11 +42,14 @@ typedef struct Plan {
     Stage stages[STAGES_MOST];
     EnsemblePlan ensemble;
     OutputPlan output;
+    TheoryPlan theory; // with species: a run of the theory, of which all but the title is empty
 } Plan;
 
 extern const OptionTable stage_options; // `stage`, `time` of one entry of `protocol:`
 extern const OptionTable ensemble_options;
 extern const OptionTable output_options;
+
+bool plan_is_theory(const Plan *plan);
 
 // The time axis of a stage: its time rounded to a whole number of steps, at least one.
 Clock plan_clock(const Plan *plan, size_t stage);

@@ -75,10 +75,28 @@ static Status put_stages(Results *results, const Plan *plan) {
     return status;
 }
 
+// "2 dimensions, structure: percus-yevick, 200 wave numbers up to 40: 0.5 small of diameter 1, ..."
+static Status put_theory(Results *results, const TheoryPlan *theory) {
+    Text words = {0};
+    text_add(&words, "theory in %d dimensions, structure: %s, %lld wave numbers up to %.6g",
+             (int)theory->dimension, theory_structure_name(theory), (long long)theory->wave_numbers,
+             theory->last_wave_number);
+    for (size_t a = 0; a < theory->species_count; a++)
+        text_add(&words, "%s%.6g %s of diameter %.6g", a ? ", " : ": ", theory->species[a].fraction,
+                 theory->species[a].name, theory->species[a].diameter);
+    const Status status = results_put_fact(results, "system", text_words(&words));
+    text_free(&words);
+    return status;
+}
+
 Status provenance_put(Results *results, const Plan *plan, const char *plan_text, double seconds) {
     TRY(results_put_fact(results, "title", plan->title));
-    TRY(put_system(results, &plan->system));
-    TRY(put_stages(results, plan));
+    if (plan_is_theory(plan)) {
+        TRY(put_theory(results, &plan->theory));
+    } else {
+        TRY(put_system(results, &plan->system));
+        TRY(put_stages(results, plan));
+    }
     TRY(results_put_fact(results, "version", version_number()));
     TRY(results_put_fact(results, "commit", version_commit()));
     TRY(results_put_fact(results, "compiler", version_compiler()));

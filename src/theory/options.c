@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The section `theory` of a run file: its tables, what cannot be, what it costs.
+#include "theory/theory.h"
+
+#include "oz/oz.h"
+
+#include <math.h>
+
+static const char *const parts[] = {
+    "structure_factor", "glass_form_factors", "critical_point", "exponents",
+    "correlators",      "beta_scaling",       "alpha_master",   NULL};
+
+static const Option rows[] = {
+    {.name = "dimension",
+     .type = OPTION_INTEGER,
+     .offset = offsetof(TheoryPlan, dimension),
+     .least = 2,
+     .most = 3,
+     .unit = "",
+     .about = "2: hard discs, 3: hard spheres.",
+     .required = 1},
+    {.name = "structure",
+     .type = OPTION_CHOICE,
+     .offset = offsetof(TheoryPlan, structure),
+     .fallback = CLOSURE_PERCUS_YEVICK,
+     .unit = "",
+     .about = "Where the structure factors come from: a closure of the Ornstein-Zernike equation, "
+              "or a closed form for one species.",
+     .choices = closure_names},
+    {.name = "packing_fraction",
+     .type = OPTION_REAL,
+     .offset = offsetof(TheoryPlan, packing_fraction),
+     .least = 0,
+     .most = 0.95,
+     .unit = "",
+     .about = "Fraction of the area or volume that the particles fill; 0: as separation says."},
+    {.name = "separation",
+     .type = OPTION_REAL,
+     .offset = offsetof(TheoryPlan, separation),
+     .least = -0.9,
+     .most = 0.3,
+     .unit = "",
+     .about = "Packing fraction over that of the glass transition, less 1; used where "
+              "packing_fraction is 0. The transition is found first."},
+    {.name = "wave_numbers.count",
+     .type = OPTION_INTEGER,
+     .offset = offsetof(TheoryPlan, wave_numbers),
+     .fallback = 200,
+     .least = 10,
+     .most = 5000,
+     .unit = "",
+     .about = "How many wave numbers: about last times 16 d/pi gives six digits."},
+    {.name = "wave_numbers.last",
+     .type = OPTION_REAL,
+     .offset = offsetof(TheoryPlan, last_wave_number),
+     .fallback = 40,
+     .least = 5,
+     .most = 2000,
+     .unit = "1/d",
+     .about = "The largest wave number: 40 gives phi_c to 1e-5, 60 to 1e-6."},
+    {.name = "calculate",
+     .type = OPTION_CHOICES,
+     .offset = offsetof(TheoryPlan, calculate),
+     .unit = "",
+     .about = "What is calculated.",
+     .choices = parts,
+     .fallback_text = "[structure_factor, glass_form_factors, critical_point, exponents]"},
+    {.name = "search.low",
+     .type = OPTION_REAL,
+     .offset = offsetof(TheoryPlan, search_low),
+     .fallback = 0,
+     .least = 0,
+     .most = 0.95,
+     .unit = "",
+     .about = "Packing fraction of a fluid, where the search for the glass transition begins; 0: "
+              "0.6 of discs, 0.45 of spheres."},
+    {.name = "search.high",
+     .type = OPTION_REAL,
+     .offset = offsetof(TheoryPlan, search_high),
+     .fallback = 0,
+     .least = 0,
+     .most = 0.95,
+     .unit = "",
+     .about = "Packing fraction of a glass, where it ends; 0: 0.74 of discs, 0.57 of spheres."},
+    {.name = "correlators.wave_numbers",
+     .type = OPTION_REALS,
+     .offset = offsetof(TheoryPlan, correlator_wave_numbers),
+     .least = 0.01,
+     .most = 2000,
+     .unit = "1/d",
+     .about = "Wave numbers of the correlators that are kept, each the nearest there is; empty: "
+              "that of the peak of the total structure factor."},
+    {.name = "correlators.times.first",
+     .type = OPTION_REAL,
+     .offset = offsetof(TheoryPlan, first_time),
+     .fallback = 1e-5,
+     .least = 1e-12,
+     .most = 1e12,
+     .unit = "d^2/D0",
+     .about = "The first time of the correlators that is kept."},
+    {.name = "correlators.times.last",
+     .type = OPTION_REAL,
+     .offset = offsetof(TheoryPlan, last_time),
+     .fallback = 1e6,
+     .least = 1e-11,
+     .most = 1e15,
+     .unit = "d^2/D0",
+     .about = "The last time of the correlators."},
+    {.name = "correlators.times.per_decade",
+     .type = OPTION_INTEGER,
+     .offset = offsetof(TheoryPlan, times_per_decade),
+     .fallback = 10,
+     .least = 1,
+     .most = 50,
+     .unit = "",
+     .about = "Times kept per decade."},
+    {.name = "correlators.block",
+     .type = OPTION_INTEGER,
+     .offset = offsetof(TheoryPlan, block),
+     .fallback = 128,
+     .least = 32,
+     .most = 4096,
+     .unit = "",
+     .about = "Points of a block of the time grid, whose spacing then doubles: errors are of "
+              "second order in 1/block."},
+};
+const OptionTable theory_options = {rows, sizeof rows / sizeof *rows, sizeof(TheoryPlan)};
+
+static const Option species_rows[] = {
+    {.name = "diameter",
+     .type = OPTION_REAL,
+     .offset = offsetof(TheorySpecies, diameter),
+     .fallback = 1,
+     .least = 0.01,
+     .most = 100,
+     .unit = "d",
+     .about = "Diameter of the particles."},
+    {.name = "fraction",
+     .type = OPTION_REAL,
+     .offset = offsetof(TheorySpecies, fraction),
+     .fallback = 1,
+     .least = 1e-6,
+     .most = 1,
+     .unit = "",
+     .about = "Fraction of the number of particles; those of all species add to 1."},
+    {.name = "free_diffusion",
+     .type = OPTION_REAL,
+     .offset = offsetof(TheorySpecies, diffusion),
+     .fallback = 1,
+     .least = 1e-6,
+     .most = 1e6,
+     .unit = "D0",
+     .about = "Free diffusion coefficient, in that of the first species."},
+};
+const OptionTable theory_species_options = {
+    species_rows, sizeof species_rows / sizeof *species_rows, sizeof(TheorySpecies)};
+
+static bool wants(const TheoryPlan *plan, TheoryPart part) {
+    return plan->calculate >> part & 1;
+}
+
+Status theory_check(const TheoryPlan *plan) {
+    const bool of_one_species = plan->structure != CLOSURE_PERCUS_YEVICK;
+    if (plan->calculate == 0) return status_fail(BAD_DATA, "calculate names nothing");
+    if (of_one_species && plan->species_count > 1)
+        return status_fail(BAD_DATA, "structure = %s is for one species, not %zu",
+                           theory_structure_name(plan), plan->species_count);
+    if (plan->packing_fraction != 0 && plan->separation != 0)
+        return status_fail(BAD_DATA,
+                           "separation = %g stands beside packing_fraction = %g; give "
+                           "one of the two",
+                           plan->separation, plan->packing_fraction);
+    if (plan->search_low != 0 && plan->search_high != 0 && plan->search_low >= plan->search_high)
+        return status_fail(BAD_DATA, "search: low = %g is not below high = %g", plan->search_low,
+                           plan->search_high);
+    if (wants(plan, THEORY_CORRELATORS) && plan->first_time >= plan->last_time)
+        return status_fail(BAD_DATA, "correlators.times: first = %g is not below last = %g",
+                           plan->first_time, plan->last_time);
+    if (plan->block % 4 != 0)
+        return status_fail(BAD_DATA, "correlators.block = %lld is not a multiple of 4",
+                           (long long)plan->block);
+    return OK;
+}
+
+size_t theory_memory(const TheoryPlan *plan) {
+    const double species = (double)plan->species_count, waves = (double)plan->wave_numbers;
+    const double tables = 3 * 1.5 * waves * waves, unknowns = 100 * species * species;
+    const double histories = 4 * (double)plan->block * species * (species + 3) / 2 * waves;
+    return (size_t)(sizeof(double) * (tables + histories + 8000 * unknowns + unknowns * unknowns));
+}
+
+// Kernel evaluations cost about 1 ns per pair of a wave number and a radius, and pair of species.
+double theory_seconds(const TheoryPlan *plan) {
+    const double species = (double)plan->species_count, waves = (double)plan->wave_numbers;
+    const double kernel = 1e-9 * 1.5 * waves * waves * species * (species + 1) / 2;
+    double evaluations = 200;
+    if (plan->calculate & (1u << THEORY_CRITICAL | 1u << THEORY_EXPONENTS)) evaluations += 4000;
+    if (wants(plan, THEORY_CORRELATORS))
+        evaluations += 3.5 * (double)plan->block * log2(plan->last_time / 1e-8);
+    return 0.3 * species + kernel * evaluations;
+}
+
+const char *theory_structure_name(const TheoryPlan *plan) {
+    return closure_names[plan->structure];
+}

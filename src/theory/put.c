@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Results of the theory: stage `theory`, one replica.
+#include "theory/put.h"
+
+#include "base/memory.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define STAGE "theory"
+
+// "small-small", "small-big", "big-big", and "total", their sum over ordered pairs.
+typedef struct Labels {
+    size_t count;
+    const char *names[MIXTURE_PAIRS_MOST + 1]; // point into `text`
+    char text[MIXTURE_PAIRS_MOST + 1][2 * THEORY_NAME_SIZE];
+} Labels;
+
+static void append(Labels *labels, const char *first, const char *dash, const char *second) {
+    char *text = labels->text[labels->count];
+    snprintf(text, sizeof labels->text[0], "%s%s%s", first, dash, second);
+    labels->names[labels->count++] = text;
+}
+
+static void label_pairs(Labels *labels, const TheoryPlan *plan) {
+    labels->count = 0;
+    for (size_t a = 0; a < plan->species_count; a++) {
+        for (size_t b = a; b < plan->species_count; b++)
+            append(labels, plan->species[a].name, "-", plan->species[b].name);
+    }
+    append(labels, "total", "", "");
+}
+
+static void label_species(Labels *labels, const TheoryPlan *plan) {
+    labels->count = 0;
+    for (size_t a = 0; a < plan->species_count; a++) append(labels, plan->species[a].name, "", "");
+}
+
+static ResultSeries shape_of(const char *name, const char *unit, const char *about) {
+    ResultSeries shape = {.stage = STAGE};
+    snprintf(shape.observable, sizeof shape.observable, "%s", name);
+    snprintf(shape.unit, sizeof shape.unit, "%s", unit);
+    snprintf(shape.about, sizeof shape.about, "%s", about);
+    return shape;
+}
+
+static void add_axis(ResultSeries *shape, ResultAxis axis) {
+    shape->axis[shape->axes++] = axis;
+}
+
+static ResultAxis labels_axis(const char *name, const Labels *labels) {
+    return (ResultAxis){.name = name, .unit = "", .count = labels->count, .labels = labels->names};
+}
+
+static ResultAxis wave_axis(const double *wave_number, size_t count) {
+    return (ResultAxis){
+        .name = "wave_number", .unit = "1/d", .count = count, .values = wave_number};
+}
+
+static ResultAxis time_axis(const char *unit, const double *time, size_t count) {
+    return (ResultAxis){.name = "time", .unit = unit, .count = count, .values = time};
+}
+
+// Into all[pair][at], and their sum over ordered pairs into the last line.
+static void fill_total(const TheoryPlan *plan, double *all, size_t count) {
+    const size_t species = plan->species_count, pairs = species * (species + 1) / 2;
+    double *total = all + pairs * count;
+    memset(total, 0, count * sizeof *total);
+    for (size_t a = 0; a < species; a++) {
+        for (size_t b = a; b < species; b++) {
+            const double *values = all + mixture_pair(species, a, b) * count;
+            for (size_t i = 0; i < count; i++) total[i] += (a == b ? 1 : 2) * values[i];
+        }
+    }
+}
+
+Status put_pairs(Results *results, const TheoryPlan *plan, const char *name, const char *about,
+                 const double *wave_number, size_t count, const double *values) {
+    Labels labels;
+    double *all = NULL;
+    ResultSeries shape = shape_of(name, "", about);
+    label_pairs(&labels, plan);
+    TRY(NEW_ARRAY(all, labels.count * count));
+    memcpy(all, values, (labels.count - 1) * count * sizeof *all);
+    fill_total(plan, all, count);
+    add_axis(&shape, labels_axis("pair", &labels));
+    add_axis(&shape, wave_axis(wave_number, count));
+    const Status status = results_put_series(results, &shape, 0, all);
+    memory_free(all);
+    return status;
+}
+
+Status put_species(Results *results, const TheoryPlan *plan, const char *name, const char *about,
+                   const double *wave_number, size_t count, const double *values) {
+    Labels labels;
+    ResultSeries shape = shape_of(name, "", about);
+    label_species(&labels, plan);
+    add_axis(&shape, labels_axis("species", &labels));
+    add_axis(&shape, wave_axis(wave_number, count));
+    return results_put_series(results, &shape, 0, values);
+}
+
+Status put_each(Results *results, const TheoryPlan *plan, const char *name, const char *unit,
+                const char *about, const double *values) {
+    for (size_t a = 0; a < plan->species_count; a++) {
+        char full[RESULT_NAME];
+        snprintf(full, sizeof full, "%.28s_%s", name, plan->species[a].name);
+        TRY(results_put_scalar(results, STAGE, plan->species_count > 1 ? full : name, unit, about,
+                               0, values[a]));
+    }
+    return OK;
+}
+
+Status put_number(Results *results, const char *name, const char *unit, const char *about,
+                  double value) {
+    return results_put_scalar(results, STAGE, name, unit, about, 0, value);
+}
+
+Status put_curve(Results *results, const char *name, const char *about, const char *unit_of_time,
+                 const double *time, size_t count, const double *values) {
+    ResultSeries shape = shape_of(name, "", about);
+    add_axis(&shape, time_axis(unit_of_time, time, count));
+    return results_put_series(results, &shape, 0, values);
+}
+
+// [time][line][wave] as [line][wave][time].
+static void turn(const double *kept, size_t times, size_t lines, double *out) {
+    for (size_t t = 0; t < times; t++) {
+        for (size_t i = 0; i < lines; i++) out[i * times + t] = kept[t * lines + i];
+    }
+}
+
+static Status put_collective(Results *results, const TheoryPlan *plan, const Kept *kept,
+                             const char *name, const char *about, double *values) {
+    Labels labels;
+    ResultSeries shape = shape_of(name, "", about);
+    label_pairs(&labels, plan);
+    turn(kept->collective, kept->times, (labels.count - 1) * kept->waves, values);
+    fill_total(plan, values, kept->waves * kept->times);
+    add_axis(&shape, labels_axis("pair", &labels));
+    add_axis(&shape, wave_axis(kept->wave_number, kept->waves));
+    add_axis(&shape, time_axis("d^2/D0", kept->time, kept->times));
+    return results_put_series(results, &shape, 0, values);
+}
+
+static const char *const MEAN[] = {"mean"}, *const TOTAL[] = {"total"};
+
+static Status put_self(Results *results, const TheoryPlan *plan, const Kept *kept, double *values) {
+    Labels labels;
+    ResultSeries shape = shape_of("self_scattering", "",
+                                  "Self-intermediate scattering function of a tagged particle.");
+    label_species(&labels, plan);
+    turn(kept->self, kept->times, labels.count * kept->waves, values);
+    add_axis(&shape, labels_axis("species", &labels));
+    add_axis(&shape, (ResultAxis){.name = "direction", .unit = "", .count = 1, .labels = MEAN});
+    add_axis(&shape, wave_axis(kept->wave_number, kept->waves));
+    add_axis(&shape, time_axis("d^2/D0", kept->time, kept->times));
+    return results_put_series(results, &shape, 0, values);
+}
+
+static Status put_displacement(Results *results, const TheoryPlan *plan, const Kept *kept,
+                               double *values) {
+    Labels labels;
+    ResultSeries shape = shape_of("mean_squared_displacement", "d^2",
+                                  "Mean squared displacement of a tagged particle.");
+    label_species(&labels, plan);
+    turn(kept->displacement, kept->times, labels.count, values);
+    add_axis(&shape, labels_axis("species", &labels));
+    add_axis(&shape, (ResultAxis){.name = "direction", .unit = "", .count = 1, .labels = TOTAL});
+    add_axis(&shape, time_axis("d^2/D0", kept->time, kept->times));
+    return results_put_series(results, &shape, 0, values);
+}
+
+Status put_kept(Results *results, const TheoryPlan *plan, const Kept *kept, const char *collective,
+                const char *about) {
+    double *values = NULL;
+    TRY(NEW_ARRAY(values, (MIXTURE_PAIRS_MOST + 1) * kept->waves * kept->times));
+    Status status = put_collective(results, plan, kept, collective, about, values);
+    if (status == OK && kept->self) status = put_self(results, plan, kept, values);
+    if (status == OK && kept->self) status = put_displacement(results, plan, kept, values);
+    memory_free(values);
+    return status;
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers of the theory under the names and axes of the observables of a simulation. Inside theory/
+// only.
+#pragma once
+
+#include "theory/theory.h"
+
+// Series on the axes pair and wave_number, values [pair][count].
+Status put_pairs(Results *results, const TheoryPlan *plan, const char *name, const char *about,
+                 const double *wave_number, size_t count, const double *values);
+// On species and wave_number, values [species][count].
+Status put_species(Results *results, const TheoryPlan *plan, const char *name, const char *about,
+                   const double *wave_number, size_t count, const double *values);
+// One value per species.
+Status put_each(Results *results, const TheoryPlan *plan, const char *name, const char *unit,
+                const char *about, const double *values);
+Status put_number(Results *results, const char *name, const char *unit, const char *about,
+                  double value);
+Status put_curve(Results *results, const char *name, const char *about, const char *unit_of_time,
+                 const double *time, size_t count, const double *values);
+
+// Correlators as they were kept, [time][pair or species][wave number].
+typedef struct Kept {
+    size_t waves, times, times_most;
+    double wave_number[OPTION_LIST_SIZE];
+    size_t index[OPTION_LIST_SIZE]; // of the wave numbers on the grid
+    double *time;
+    double *collective, *self, *displacement; // self and displacement NULL: none
+} Kept;
+Status put_kept(Results *results, const TheoryPlan *plan, const Kept *kept, const char *collective,
+                const char *about);

@@ -1,0 +1,425 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run of the theory: structure, glass transition, correlators, one after the other.
+#include "theory/theory.h"
+
+#include "base/memory.h"
+#include "mct/beta.h"
+#include "mct/correlators.h"
+#include "mct/critical.h"
+#include "mct/forms.h"
+#include "mct/grid.h"
+#include "oz/oz.h"
+#include "theory/put.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double SLICE_STEPS = 32; // times of the correlators between two looks from outside
+static const double BETA_LAST = 1e6;  // t/t0, and what a scaling function loses its sense at
+static const double MASTER_FIRST = 1e-5, MASTER_LAST = 1e3; // of t in units of its own scale
+
+struct Theory {
+    const TheoryPlan *plan;
+    Mixture mixture;
+    Grid *grid;
+    Oz *oz;
+    const Structure *structure; // at the packing fraction of the plan; NULL before
+    CriticalPoint *critical;    // NULL: not wanted
+    Correlators *correlators;   // while they are being calculated
+    Kept kept;
+    double next_time; // to be kept
+    size_t step;      // of the table below
+    double share;     // of the step that is done
+};
+
+static Mixture mixture_of(const TheoryPlan *plan) {
+    Mixture mixture = {.dimension = (int)plan->dimension, .species = plan->species_count};
+    for (size_t a = 0; a < plan->species_count; a++) {
+        mixture.diameter[a] = plan->species[a].diameter;
+        mixture.fraction[a] = plan->species[a].fraction;
+    }
+    return mixture;
+}
+
+static bool wants(const Theory *theory, TheoryPart part) {
+    return theory->plan->calculate >> part & 1;
+}
+
+// A state is asked for, not only the transition.
+static bool wants_state(const Theory *theory) {
+    return theory->plan->packing_fraction > 0 || theory->plan->separation != 0;
+}
+
+// ---- The steps ---------------------------------------------------------------------------------
+
+static bool wants_critical(const Theory *theory) {
+    return wants(theory, THEORY_CRITICAL) || wants(theory, THEORY_EXPONENTS) ||
+           wants(theory, THEORY_BETA) || wants(theory, THEORY_MASTER) ||
+           theory->plan->separation != 0;
+}
+
+static Status put_exponents(const Theory *theory, Results *results) {
+    const CriticalPoint *point = theory->critical;
+    double amplitude;
+    TRY(beta_von_schweidler(point->exponents.lambda, &amplitude));
+    TRY(put_number(results, "exponent_parameter", "", "Exponent parameter lambda.",
+                   point->exponents.lambda));
+    TRY(put_number(results, "exponent_a", "", "Critical exponent a: G -> (t/t0)^-a.",
+                   point->exponents.a));
+    TRY(put_number(results, "exponent_b", "", "Von Schweidler exponent b: G -> -B (t/t_sigma)^b.",
+                   point->exponents.b));
+    TRY(put_number(results, "exponent_gamma", "",
+                   "Exponent gamma = 1/(2 a) + 1/(2 b) of the time of the final decay.",
+                   point->exponents.gamma));
+    TRY(put_number(results, "von_schweidler_amplitude", "", "Amplitude B of G -> -B (t/t_sigma)^b.",
+                   amplitude));
+    return put_number(results, "separation_slope", "",
+                      "C in sigma = C (phi - phi_c)/phi_c, the separation parameter.",
+                      point->slope);
+}
+
+static Status find_critical(Theory *theory, Results *results) {
+    const TheoryPlan *plan = theory->plan;
+    const bool discs = plan->dimension == 2;
+    const CriticalSearch search = {
+        .mixture = theory->mixture,
+        .closure = (Closure)plan->structure,
+        .count = (size_t)plan->wave_numbers,
+        .last = plan->last_wave_number,
+        .low = plan->search_low > 0 ? plan->search_low
+               : discs              ? 0.6
+                                    : 0.45,
+        .high = plan->search_high > 0 ? plan->search_high
+                : discs               ? 0.74
+                                      : 0.57,
+    };
+    TRY(critical_find(&theory->critical, &search));
+    const CriticalPoint *point = theory->critical;
+    TRY(put_number(results, "critical_packing_fraction", "",
+                   "Packing fraction of the glass transition.", point->packing_fraction));
+    TRY(results_put_health(results, "transition_mismatch",
+                           "relative difference of two ways to the curvature of phi(1 - E)", 0.02,
+                           fabs(point->curvature / point->expected_curvature - 1)));
+    TRY(put_pairs(results, plan, "critical_form_factors",
+                  "Form factors F_ab(q) at the glass transition.", point->wave_number, point->count,
+                  point->form));
+    TRY(put_pairs(results, plan, "critical_amplitude",
+                  "Critical amplitude H_ab(q): F_ab(q,t) = F_ab + H_ab G(t) near the plateau.",
+                  point->wave_number, point->count, point->amplitude));
+    return wants(theory, THEORY_EXPONENTS) ? put_exponents(theory, results) : OK;
+}
+
+static Status solve_structure(Theory *theory, Results *results) {
+    const TheoryPlan *plan = theory->plan;
+    const double packing_fraction =
+        plan->packing_fraction > 0 ? plan->packing_fraction
+                                   : theory->critical->packing_fraction * (1 + plan->separation);
+    TRY(oz_solve(theory->oz, packing_fraction, &theory->structure));
+    const Structure *s = theory->structure;
+    TRY(put_number(results, "packing_fraction", "", "Packing fraction of the state.",
+                   packing_fraction));
+    TRY(results_put_health(results, "structure_residual",
+                           "largest residual of the closure, where it is solved numerically", 1e-8,
+                           oz_effort(theory->oz).residual));
+    if (!wants(theory, THEORY_STRUCTURE)) return OK;
+    TRY(put_pairs(results, plan, "structure_factor",
+                  "Partial structure factors S_ab(q); total: their sum over all ordered pairs.",
+                  s->wave_number, s->count, s->factor));
+    return put_pairs(results, plan, "direct_correlation",
+                     "Direct correlation functions c_ab(q), in d^dimension; their sum.",
+                     s->wave_number, s->count, s->direct);
+}
+
+static bool wants_forms(const Theory *theory) {
+    return wants_state(theory) && wants(theory, THEORY_FORMS);
+}
+
+static Status find_forms(Theory *theory, Results *results) {
+    Forms *forms = NULL;
+    const Structure *s = theory->structure;
+    TRY(forms_create(&forms, theory->grid, s));
+    Status status =
+        put_number(results, "is_glass", "", "1 in a glass, 0 in a fluid.", forms->glass ? 1 : 0);
+    if (status == OK)
+        status = put_pairs(results, theory->plan, "glass_form_factors",
+                           "What is left of F_ab(q,t) after infinite time; 0 in a fluid.",
+                           s->wave_number, s->count, forms->collective);
+    if (status == OK)
+        status = put_species(results, theory->plan, "self_form_factors",
+                             "What is left of a tagged particle's correlator; 0 in a fluid.",
+                             s->wave_number, s->count, forms->self);
+    if (status == OK && forms->glass)
+        status = put_each(results, theory->plan, "localisation_length", "d",
+                          "r_l of a tagged particle: its displacement ends at 2 dim r_l^2.",
+                          forms->localisation);
+    forms_free(forms);
+    return status;
+}
+
+static bool wants_beta(const Theory *theory) {
+    return wants(theory, THEORY_BETA);
+}
+
+static Status put_beta(const Theory *theory, Results *results, double sigma, const char *name,
+                       const char *about) {
+    BetaFunction *beta = NULL;
+    const BetaSettings settings = {
+        .lambda = theory->critical->exponents.lambda, .sigma = sigma, .last = BETA_LAST};
+    TRY(beta_create(&beta, &settings));
+    size_t count = 0;
+    double next = 1e-6;
+    for (size_t i = 0; i < beta->count; i++) { // twenty times a decade
+        if (beta->time[i] < next) continue;
+        beta->time[count] = beta->time[i];
+        beta->value[count++] = beta->value[i];
+        next *= pow(10, 0.05);
+    }
+    const Status status =
+        put_curve(results, name, about, "t_sigma", beta->time, count, beta->value);
+    beta_free(beta);
+    return status;
+}
+
+static Status solve_beta(Theory *theory, Results *results) {
+    TRY(put_beta(theory, results, -1, "beta_scaling_fluid",
+                 "Scaling function g_-(t/t_sigma) below the transition."));
+    return put_beta(theory, results, 1, "beta_scaling_glass",
+                    "Scaling function g_+(t/t_sigma) above the transition.");
+}
+
+// ---- Correlators -------------------------------------------------------------------------------
+
+static size_t nearest(const Grid *grid, double wave_number) {
+    size_t best = 0;
+    for (size_t m = 1; m < grid->count; m++) {
+        if (fabs(grid->wave_number[m] - wave_number) < fabs(grid->wave_number[best] - wave_number))
+            best = m;
+    }
+    return best;
+}
+
+static size_t peak(const Structure *s) {
+    const size_t species = s->mixture.species;
+    double most = 0;
+    size_t best = 0;
+    for (size_t m = 0; m < s->count; m++) {
+        double total = 0;
+        for (size_t a = 0; a < species; a++) {
+            for (size_t b = 0; b < species; b++)
+                total += s->factor[mixture_pair(species, a, b) * s->count + m];
+        }
+        if (total > most) best = m;
+        most = fmax(most, total);
+    }
+    return best;
+}
+
+// Which wave numbers are kept, and room for them at all times.
+static Status kept_create(Theory *theory, double first, double last, double per_decade,
+                          bool tagged) {
+    const OptionReals *wanted = &theory->plan->correlator_wave_numbers;
+    Kept *kept = &theory->kept;
+    const size_t species = theory->plan->species_count;
+    memset(kept, 0, sizeof *kept);
+    kept->waves = wanted->count > 0 ? (size_t)wanted->count : 1;
+    for (size_t i = 0; i < kept->waves; i++) {
+        kept->index[i] =
+            wanted->count > 0 ? nearest(theory->grid, wanted->values[i]) : peak(theory->structure);
+        kept->wave_number[i] = theory->grid->wave_number[kept->index[i]];
+    }
+    kept->times_most = (size_t)(per_decade * log10(last / first)) + 2;
+    theory->next_time = first;
+    TRY(NEW_ARRAY(kept->time, kept->times_most));
+    TRY(NEW_ARRAY(kept->collective, kept->times_most * species * (species + 1) / 2 * kept->waves));
+    if (!tagged) return OK;
+    TRY(NEW_ARRAY(kept->self, kept->times_most * species * kept->waves));
+    return NEW_ARRAY(kept->displacement, kept->times_most * species);
+}
+
+static void kept_free(Kept *kept) {
+    memory_free(kept->time);
+    memory_free(kept->collective);
+    memory_free(kept->self);
+    memory_free(kept->displacement);
+    memset(kept, 0, sizeof *kept);
+}
+
+static void keep(Theory *theory) {
+    const Correlators *c = theory->correlators;
+    Kept *kept = &theory->kept;
+    const size_t species = theory->plan->species_count, pairs = species * (species + 1) / 2;
+    const size_t stride = theory->grid->stride, t = kept->times++;
+    kept->time[t] = correlators_time(c);
+    for (size_t i = 0; i < pairs * kept->waves; i++)
+        kept->collective[t * pairs * kept->waves + i] =
+            correlators_collective(c)[i / kept->waves * stride + kept->index[i % kept->waves]];
+    for (size_t i = 0; kept->self && i < species * kept->waves; i++)
+        kept->self[t * species * kept->waves + i] =
+            correlators_self(c)[i / kept->waves * stride + kept->index[i % kept->waves]];
+    for (size_t a = 0; kept->self && a < species; a++)
+        kept->displacement[t * species + a] = correlators_displacement(c)[a];
+}
+
+// Some more times; `done` when the last is passed or there is no more room.
+static Status follow(Theory *theory, double last, double per_decade, bool *done) {
+    for (int i = 0; i < SLICE_STEPS; i++) {
+        TRY(correlators_advance(theory->correlators));
+        const double time = correlators_time(theory->correlators);
+        if (time < theory->next_time) continue;
+        keep(theory);
+        while (theory->next_time <= time) theory->next_time *= pow(10, 1 / per_decade);
+        *done = time >= last || theory->kept.times == theory->kept.times_most;
+        if (*done) return OK;
+    }
+    const double first = 1e-9, time = correlators_time(theory->correlators);
+    theory->share = fmin(0.999, fmax(0, log(time / first) / log(last / first)));
+    return OK;
+}
+
+static void end_correlators(Theory *theory) {
+    correlators_free(theory->correlators);
+    theory->correlators = NULL;
+    kept_free(&theory->kept);
+}
+
+static bool wants_correlators(const Theory *theory) {
+    return wants_state(theory) && wants(theory, THEORY_CORRELATORS);
+}
+
+static Status begin_correlators(Theory *theory) {
+    const TheoryPlan *plan = theory->plan;
+    CorrelatorSettings settings = {.block = (size_t)plan->block, .tagged = true};
+    for (size_t a = 0; a < plan->species_count; a++)
+        settings.diffusion[a] = plan->species[a].diffusion;
+    TRY(kept_create(theory, plan->first_time, plan->last_time, (double)plan->times_per_decade,
+                    true));
+    return correlators_create(&theory->correlators, theory->grid, theory->structure, &settings);
+}
+
+static Status solve_correlators(Theory *theory, Results *results) {
+    const TheoryPlan *plan = theory->plan;
+    bool done = false;
+    if (!theory->correlators) TRY(begin_correlators(theory));
+    TRY(follow(theory, plan->last_time, (double)plan->times_per_decade, &done));
+    if (!done) return OK;
+    const Status status = put_kept(results, plan, &theory->kept, "collective_scattering",
+                                   "Collective intermediate scattering functions F_ab(q,t); total: "
+                                   "their sum over all ordered pairs.");
+    end_correlators(theory);
+    theory->share = 1;
+    return status;
+}
+
+static bool wants_master(const Theory *theory) {
+    return wants(theory, THEORY_MASTER);
+}
+
+static Status begin_master(Theory *theory) {
+    const CriticalPoint *point = theory->critical;
+    TRY(oz_solve(theory->oz, point->packing_fraction, &theory->structure));
+    TRY(kept_create(theory, MASTER_FIRST, MASTER_LAST, (double)theory->plan->times_per_decade,
+                    false));
+    return correlators_create_master(&theory->correlators, theory->grid, theory->structure,
+                                     point->form, point->amplitude, point->exponents.b);
+}
+
+static Status solve_master(Theory *theory, Results *results) {
+    bool done = false;
+    if (!theory->correlators) TRY(begin_master(theory));
+    TRY(follow(theory, MASTER_LAST, (double)theory->plan->times_per_decade, &done));
+    if (!done) return OK;
+    const Status status =
+        put_kept(results, theory->plan, &theory->kept, "alpha_master",
+                 "Master curve of the final decay at the transition, F_ab - H_ab t^b for small t; "
+                 "the unit of time is that in which it begins so.");
+    end_correlators(theory);
+    theory->share = 1;
+    return status;
+}
+
+// ---- The whole ---------------------------------------------------------------------------------
+
+// In this order; a step that takes several slices says its share in theory->share.
+static const struct {
+    const char *name;
+    bool (*wanted)(const Theory *theory);
+    Status (*work)(Theory *theory, Results *results);
+    bool slices;
+} steps[] = {
+    {"critical point", wants_critical, find_critical, false},
+    {"structure", wants_state, solve_structure, false},
+    {"form factors", wants_forms, find_forms, false},
+    {"beta scaling", wants_beta, solve_beta, false},
+    {"correlators", wants_correlators, solve_correlators, true},
+    {"alpha master curve", wants_master, solve_master, true},
+};
+enum { STEPS = sizeof steps / sizeof *steps };
+
+static void skip_unwanted(Theory *theory) {
+    while (theory->step < STEPS && !steps[theory->step].wanted(theory)) theory->step++;
+}
+
+static Status check_state(const Theory *theory) {
+    const bool needs = wants(theory, THEORY_CORRELATORS);
+    if (!needs || wants_state(theory)) return OK;
+    return status_fail(BAD_DATA, "correlators need a packing_fraction or a separation");
+}
+
+static Status prepare(Theory *theory) {
+    const TheoryPlan *plan = theory->plan;
+    TRY(check_state(theory));
+    TRY(grid_create(&theory->grid, (int)plan->dimension, (size_t)plan->wave_numbers,
+                    plan->last_wave_number));
+    TRY(oz_create(&theory->oz, (Closure)plan->structure, &theory->mixture,
+                  theory->grid->wave_number, theory->grid->count));
+    skip_unwanted(theory);
+    return OK;
+}
+
+Status theory_create(Theory **out, const TheoryPlan *plan) {
+    Theory *theory = NULL;
+    *out = NULL;
+    TRY(NEW(theory));
+    theory->plan = plan;
+    theory->mixture = mixture_of(plan);
+    const Status status = prepare(theory);
+    if (status == OK)
+        *out = theory;
+    else
+        theory_free(theory);
+    return status;
+}
+
+void theory_free(Theory *theory) {
+    if (!theory) return;
+    end_correlators(theory);
+    critical_free(theory->critical);
+    oz_free(theory->oz);
+    grid_free(theory->grid);
+    memory_free(theory);
+}
+
+Status theory_advance(Theory *theory, Results *results) {
+    TRY(steps[theory->step].work(theory, results));
+    if (steps[theory->step].slices && theory->share < 1) return OK;
+    theory->share = 0;
+    theory->step++;
+    skip_unwanted(theory);
+    return OK;
+}
+
+bool theory_finished(const Theory *theory) {
+    return theory->step == STEPS;
+}
+
+double theory_progress(const Theory *theory) {
+    return ((double)theory->step + fmin(theory->share, 1)) / STEPS;
+}
+
+const char *theory_doing(const Theory *theory) {
+    return theory_finished(theory) ? "" : steps[theory->step].name;
+}
+
+double theory_time(const Theory *theory) {
+    return theory->correlators ? correlators_time(theory->correlators) : 0;
+}

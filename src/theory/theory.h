@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run of the theory: what the section `theory` of a run file says, and the calculation of it, in
+// slices, into Results with the names and axes that the observables of a simulation have.
+#pragma once
+
+#include "base/option.h"
+#include "oz/mixture.h"
+#include "results/results.h"
+
+#include <stdbool.h>
+
+enum { THEORY_NAME_SIZE = 32 };
+
+typedef struct TheorySpecies {
+    char name[THEORY_NAME_SIZE];
+    double diameter, fraction;
+    double diffusion; // free, in D0
+} TheorySpecies;
+
+// What can be calculated: bits of `calculate`.
+typedef enum TheoryPart {
+    THEORY_STRUCTURE,
+    THEORY_FORMS,
+    THEORY_CRITICAL,
+    THEORY_EXPONENTS,
+    THEORY_CORRELATORS,
+    THEORY_BETA,
+    THEORY_MASTER,
+    THEORY_PARTS
+} TheoryPart;
+
+typedef struct TheoryPlan {
+    int64_t dimension;
+    int64_t structure;                   // a Closure
+    double packing_fraction, separation; // one of them: separation is phi/phi_c - 1
+    int64_t wave_numbers;
+    double last_wave_number;
+    uint64_t calculate; // bits 1 << TheoryPart
+    double search_low, search_high;
+    OptionReals correlator_wave_numbers;
+    double first_time, last_time;
+    int64_t times_per_decade, block;
+    size_t species_count; // 0: no theory run
+    TheorySpecies species[MIXTURE_SPECIES_MOST];
+} TheoryPlan;
+
+extern const OptionTable theory_options;
+extern const OptionTable theory_species_options;
+
+Status theory_check(const TheoryPlan *plan); // BAD_DATA with a sentence
+size_t theory_memory(const TheoryPlan *plan);
+double theory_seconds(const TheoryPlan *plan); // rough
+const char *theory_structure_name(const TheoryPlan *plan);
+
+typedef struct Theory Theory;
+Status theory_create(Theory **out, const TheoryPlan *plan);
+void theory_free(Theory *theory);
+
+// A slice of the work: mostly below a second. Results are put in as they come.
+Status theory_advance(Theory *theory, Results *results);
+bool theory_finished(const Theory *theory);
+double theory_progress(const Theory *theory);   // 0 to 1
+const char *theory_doing(const Theory *theory); // "critical point"
+double theory_time(const Theory *theory);       // of the correlators, in d^2/D0; 0 before
