@@ -273,6 +273,7 @@ static Status read_theory(const Node *root, const Node *map, Plan *plan) {
                          MIXTURE_SPECIES_MOST);
     for (const Node *node = species->first; node; node = node->next)
         TRY(read_theory_species(node, &theory->species[theory->species_count++]));
+    theory_complete(theory);
     plan->ensemble.replicas = 1;
     return judge_theory(root, theory);
 }

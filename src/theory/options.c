@@ -138,11 +138,12 @@ static const Option species_rows[] = {
     {.name = "fraction",
      .type = OPTION_REAL,
      .offset = offsetof(TheorySpecies, fraction),
-     .fallback = 1,
-     .least = 1e-6,
+     .fallback = 0,
+     .least = 0,
      .most = 1,
      .unit = "",
-     .about = "Fraction of the number of particles; those of all species add to 1."},
+     .about = "Fraction of the number of particles; those of all species add to 1. One species may "
+              "leave it out, and is what the others leave."},
     {.name = "free_diffusion",
      .type = OPTION_REAL,
      .offset = offsetof(TheorySpecies, diffusion),
@@ -159,8 +160,28 @@ static bool wants(const TheoryPlan *plan, TheoryPart part) {
     return plan->calculate >> part & 1;
 }
 
+void theory_complete(TheoryPlan *plan) {
+    double sum = 0;
+    TheorySpecies *rest = NULL;
+    for (size_t a = 0; a < plan->species_count; a++) {
+        sum += plan->species[a].fraction;
+        if (plan->species[a].fraction == 0) rest = &plan->species[a];
+    }
+    if (rest) rest->fraction = fmax(0, 1 - sum);
+}
+
+static Status check_fractions(const TheoryPlan *plan) {
+    for (size_t a = 0; a < plan->species_count; a++) {
+        if (!(plan->species[a].fraction > 0))
+            return status_fail(BAD_DATA, "species '%s' has no fraction that the others leave",
+                               plan->species[a].name);
+    }
+    return OK;
+}
+
 Status theory_check(const TheoryPlan *plan) {
     const bool of_one_species = plan->structure != CLOSURE_PERCUS_YEVICK;
+    TRY(check_fractions(plan));
     if (plan->calculate == 0) return status_fail(BAD_DATA, "calculate names nothing");
     if (of_one_species && plan->species_count > 1)
         return status_fail(BAD_DATA, "structure = %s is for one species, not %zu",
@@ -176,6 +197,10 @@ Status theory_check(const TheoryPlan *plan) {
     if (wants(plan, THEORY_CORRELATORS) && plan->first_time >= plan->last_time)
         return status_fail(BAD_DATA, "correlators.times: first = %g is not below last = %g",
                            plan->first_time, plan->last_time);
+    if (wants(plan, THEORY_CORRELATORS) && plan->packing_fraction == 0 && plan->separation == 0)
+        return status_fail(BAD_DATA,
+                           "calculate names correlators, which need a packing_fraction or "
+                           "a separation");
     if (plan->block % 4 != 0)
         return status_fail(BAD_DATA, "correlators.block = %lld is not a multiple of 4",
                            (long long)plan->block);

@@ -181,3 +181,39 @@ Status put_kept(Results *results, const TheoryPlan *plan, const Kept *kept, cons
     memory_free(values);
     return status;
 }
+
+// Lines of [pair][wave][time], the last of the pairs the total, over their start.
+static void normalise(const TheoryPlan *plan, const Kept *kept, double *values) {
+    const size_t species = plan->species_count, pairs = species * (species + 1) / 2;
+    for (size_t w = 0; w < kept->waves; w++) {
+        double total = 0;
+        for (size_t pair = 0; pair <= pairs; pair++) {
+            double *line = values + (pair * kept->waves + w) * kept->times;
+            for (size_t t = 0; t < kept->times; t++)
+                line[t] /= pair < pairs ? kept->start[pair][w] : total;
+            for (size_t a = 0; pair + 1 == pairs && a < species; a++) {
+                for (size_t b = 0; b < species; b++)
+                    total += kept->start[mixture_pair(species, a, b)][w];
+            }
+        }
+    }
+}
+
+Status put_normalised(Results *results, const TheoryPlan *plan, const Kept *kept) {
+    Labels labels;
+    double *values = NULL;
+    ResultSeries shape = shape_of("collective_scattering_normalised", "",
+                                  "Collective intermediate scattering functions, each over its "
+                                  "value at t = 0.");
+    label_pairs(&labels, plan);
+    TRY(NEW_ARRAY(values, labels.count * kept->waves * kept->times));
+    turn(kept->collective, kept->times, (labels.count - 1) * kept->waves, values);
+    fill_total(plan, values, kept->waves * kept->times);
+    normalise(plan, kept, values);
+    add_axis(&shape, labels_axis("pair", &labels));
+    add_axis(&shape, wave_axis(kept->wave_number, kept->waves));
+    add_axis(&shape, time_axis("d^2/D0", kept->time, kept->times));
+    const Status status = results_put_series(results, &shape, 0, values);
+    memory_free(values);
+    return status;
+}

@@ -23,9 +23,12 @@ Status put_curve(Results *results, const char *name, const char *about, const ch
 typedef struct Kept {
     size_t waves, times, times_most;
     double wave_number[OPTION_LIST_SIZE];
-    size_t index[OPTION_LIST_SIZE]; // of the wave numbers on the grid
+    size_t index[OPTION_LIST_SIZE];                     // of the wave numbers on the grid
+    double start[MIXTURE_PAIRS_MOST][OPTION_LIST_SIZE]; // S_ab, what the correlators begin at
     double *time;
     double *collective, *self, *displacement; // self and displacement NULL: none
 } Kept;
 Status put_kept(Results *results, const TheoryPlan *plan, const Kept *kept, const char *collective,
                 const char *about);
+// Collective correlators over what they begin at: collective_scattering_normalised.
+Status put_normalised(Results *results, const TheoryPlan *plan, const Kept *kept);

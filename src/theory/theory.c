@@ -15,7 +15,7 @@
 #include <string.h>
 
 static const double SLICE_STEPS = 32; // times of the correlators between two looks from outside
-static const double BETA_LAST = 1e6;  // t/t0, and what a scaling function loses its sense at
+static const double BETA_LAST = 1e6, BETA_LEAST = -10;      // of t/t_sigma and of G
 static const double MASTER_FIRST = 1e-5, MASTER_LAST = 1e3; // of t in units of its own scale
 
 struct Theory {
@@ -134,24 +134,25 @@ static bool wants_forms(const Theory *theory) {
     return wants_state(theory) && wants(theory, THEORY_FORMS);
 }
 
+static Status put_forms(const Theory *theory, Results *results, const Forms *forms) {
+    const Structure *s = theory->structure;
+    TRY(put_number(results, "is_glass", "", "1 in a glass, 0 in a fluid.", forms->glass ? 1 : 0));
+    if (!forms->glass) return OK;
+    TRY(put_pairs(results, theory->plan, "glass_form_factors",
+                  "What is left of F_ab(q,t) after infinite time.", s->wave_number, s->count,
+                  forms->collective));
+    TRY(put_species(results, theory->plan, "self_form_factors",
+                    "What is left of a tagged particle's correlator.", s->wave_number, s->count,
+                    forms->self));
+    return put_each(results, theory->plan, "localisation_length", "d",
+                    "r_l of a tagged particle: its displacement ends at 2 dim r_l^2.",
+                    forms->localisation);
+}
+
 static Status find_forms(Theory *theory, Results *results) {
     Forms *forms = NULL;
-    const Structure *s = theory->structure;
-    TRY(forms_create(&forms, theory->grid, s));
-    Status status =
-        put_number(results, "is_glass", "", "1 in a glass, 0 in a fluid.", forms->glass ? 1 : 0);
-    if (status == OK)
-        status = put_pairs(results, theory->plan, "glass_form_factors",
-                           "What is left of F_ab(q,t) after infinite time; 0 in a fluid.",
-                           s->wave_number, s->count, forms->collective);
-    if (status == OK)
-        status = put_species(results, theory->plan, "self_form_factors",
-                             "What is left of a tagged particle's correlator; 0 in a fluid.",
-                             s->wave_number, s->count, forms->self);
-    if (status == OK && forms->glass)
-        status = put_each(results, theory->plan, "localisation_length", "d",
-                          "r_l of a tagged particle: its displacement ends at 2 dim r_l^2.",
-                          forms->localisation);
+    TRY(forms_create(&forms, theory->grid, theory->structure));
+    const Status status = put_forms(theory, results, forms);
     forms_free(forms);
     return status;
 }
@@ -168,8 +169,8 @@ static Status put_beta(const Theory *theory, Results *results, double sigma, con
     TRY(beta_create(&beta, &settings));
     size_t count = 0;
     double next = 1e-6;
-    for (size_t i = 0; i < beta->count; i++) { // twenty times a decade
-        if (beta->time[i] < next) continue;
+    for (size_t i = 0; i < beta->count && beta->value[i] > BETA_LEAST; i++) {
+        if (beta->time[i] < next) continue; // twenty times a decade
         beta->time[count] = beta->time[i];
         beta->value[count++] = beta->value[i];
         next *= pow(10, 0.05);
@@ -226,6 +227,9 @@ static Status kept_create(Theory *theory, double first, double last, double per_
         kept->index[i] =
             wanted->count > 0 ? nearest(theory->grid, wanted->values[i]) : peak(theory->structure);
         kept->wave_number[i] = theory->grid->wave_number[kept->index[i]];
+        for (size_t pair = 0; pair < mixture_pairs(&theory->mixture); pair++)
+            kept->start[pair][i] =
+                theory->structure->factor[pair * theory->grid->count + kept->index[i]];
     }
     kept->times_most = (size_t)(per_decade * log10(last / first)) + 2;
     theory->next_time = first;
@@ -302,9 +306,10 @@ static Status solve_correlators(Theory *theory, Results *results) {
     if (!theory->correlators) TRY(begin_correlators(theory));
     TRY(follow(theory, plan->last_time, (double)plan->times_per_decade, &done));
     if (!done) return OK;
-    const Status status = put_kept(results, plan, &theory->kept, "collective_scattering",
-                                   "Collective intermediate scattering functions F_ab(q,t); total: "
-                                   "their sum over all ordered pairs.");
+    Status status = put_kept(results, plan, &theory->kept, "collective_scattering",
+                             "Collective intermediate scattering functions F_ab(q,t); total: "
+                             "their sum over all ordered pairs.");
+    if (status == OK) status = put_normalised(results, plan, &theory->kept);
     end_correlators(theory);
     theory->share = 1;
     return status;
@@ -359,15 +364,8 @@ static void skip_unwanted(Theory *theory) {
     while (theory->step < STEPS && !steps[theory->step].wanted(theory)) theory->step++;
 }
 
-static Status check_state(const Theory *theory) {
-    const bool needs = wants(theory, THEORY_CORRELATORS);
-    if (!needs || wants_state(theory)) return OK;
-    return status_fail(BAD_DATA, "correlators need a packing_fraction or a separation");
-}
-
 static Status prepare(Theory *theory) {
     const TheoryPlan *plan = theory->plan;
-    TRY(check_state(theory));
     TRY(grid_create(&theory->grid, (int)plan->dimension, (size_t)plan->wave_numbers,
                     plan->last_wave_number));
     TRY(oz_create(&theory->oz, (Closure)plan->structure, &theory->mixture,

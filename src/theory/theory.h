@@ -47,6 +47,7 @@ typedef struct TheoryPlan {
 extern const OptionTable theory_options;
 extern const OptionTable theory_species_options;
 
+void theory_complete(TheoryPlan *plan);      // the fraction that one species may have left out
 Status theory_check(const TheoryPlan *plan); // BAD_DATA with a sentence
 size_t theory_memory(const TheoryPlan *plan);
 double theory_seconds(const TheoryPlan *plan); // rough

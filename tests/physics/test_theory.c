@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs of the theory as a whole: what is asked for is in the results, under the names and axes of a
+// simulation, and the parts agree with each other.
+#include "theory/theory.h"
+
+#include "oz/oz.h"
+
+#include <check.h>
+#include <math.h>
+#include <string.h>
+
+static TheoryPlan plan_of(uint64_t calculate) {
+    TheoryPlan plan = {.dimension = 3,
+                       .structure = CLOSURE_PERCUS_YEVICK,
+                       .wave_numbers = 60,
+                       .last_wave_number = 25,
+                       .calculate = calculate,
+                       .first_time = 1e-4,
+                       .last_time = 1e4,
+                       .times_per_decade = 5,
+                       .block = 64,
+                       .species_count = 2};
+    plan.species[0] = (TheorySpecies){"small", 1, 0.4, 1};
+    plan.species[1] = (TheorySpecies){"big", 1.2, 0.6, 0.8};
+    return plan;
+}
+
+static Results *run(const TheoryPlan *plan) {
+    Theory *theory = NULL;
+    Results *results = NULL;
+    ck_assert_msg(theory_check(plan) == OK, "%s", status_sentence());
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_msg(theory_create(&theory, plan) == OK, "%s", status_sentence());
+    double before = -1;
+    while (!theory_finished(theory)) {
+        ck_assert_msg(theory_advance(theory, results) == OK, "%s", status_sentence());
+        ck_assert(theory_progress(theory) >= before);
+        before = theory_progress(theory);
+    }
+    ck_assert_double_eq(before, 1);
+    theory_free(theory);
+    return results;
+}
+
+static double number(const Results *results, const char *name) {
+    const ResultScalar *scalar = results_find_scalar(results, "theory", name);
+    ck_assert_msg(scalar != NULL, "no %s", name);
+    return scalar->values[0];
+}
+
+static const ResultSeries *series(const Results *results, const char *name) {
+    const ResultSeries *found = results_find_series(results, "theory", name);
+    ck_assert_msg(found != NULL, "no %s", name);
+    return found;
+}
+
+START_TEST(a_glass_has_all_that_is_asked_for) {
+    TheoryPlan plan = plan_of((1u << THEORY_PARTS) - 1);
+    plan.separation = 0.01;
+    plan.correlator_wave_numbers = (OptionReals){2, {6, 7}};
+    Results *results = run(&plan);
+    const double critical = number(results, "critical_packing_fraction");
+    ck_assert_double_eq_tol(number(results, "packing_fraction"), critical * 1.01, 1e-12);
+    ck_assert_double_eq(number(results, "is_glass"), 1);
+    const double a = number(results, "exponent_a"), b = number(results, "exponent_b");
+    ck_assert_double_eq_tol(number(results, "exponent_gamma"), 1 / (2 * a) + 1 / (2 * b), 1e-12);
+    const ResultSeries *normalised = series(results, "collective_scattering_normalised");
+    ck_assert_uint_eq(normalised->axes, 3);
+    ck_assert_str_eq(normalised->axis[0].labels[1], "small-big");
+    ck_assert_str_eq(normalised->axis[0].labels[3], "total");
+    // A glass decays from nearly 1 to its form factor, and the displacement to 6 r_l^2.
+    const size_t times = normalised->axis[2].count;
+    ck_assert(normalised->values[0] > 0.9 && normalised->values[0] < 1);
+    const ResultSeries *displacement = series(results, "mean_squared_displacement");
+    const double end = displacement->values[displacement->axis[2].count - 1];
+    const double length = number(results, "localisation_length_small");
+    ck_assert_double_eq_tol(end / (6 * length * length), 1, 0.02);
+    ck_assert(displacement->axis[2].values[times - 1] >= 1e4);
+    series(results, "alpha_master");
+    series(results, "beta_scaling_fluid");
+    ck_assert_ptr_null(results_broken_limit(results));
+    results_free(results);
+}
+END_TEST
+
+START_TEST(the_total_is_the_sum_over_ordered_pairs) {
+    TheoryPlan plan = plan_of(1u << THEORY_STRUCTURE);
+    plan.packing_fraction = 0.4;
+    Results *results = run(&plan);
+    const ResultSeries *s = series(results, "structure_factor");
+    const size_t count = s->axis[1].count;
+    for (size_t m = 0; m < count; m++) {
+        const double *v = s->values + m;
+        ck_assert_double_eq_tol(v[3 * count], v[0] + 2 * v[count] + v[2 * count], 1e-14);
+    }
+    ck_assert_double_eq_tol(s->values[count - 1], 0.4, 0.05); // x_a at large q
+    ck_assert_ptr_null(results_find_scalar(results, "theory", "critical_packing_fraction"));
+    results_free(results);
+}
+END_TEST
+
+START_TEST(a_fluid_keeps_nothing) {
+    TheoryPlan plan = plan_of(1u << THEORY_FORMS);
+    plan.packing_fraction = 0.4;
+    Results *results = run(&plan);
+    ck_assert_double_eq(number(results, "is_glass"), 0);
+    ck_assert_ptr_null(results_find_series(results, "theory", "glass_form_factors"));
+    ck_assert_ptr_null(results_find_scalar(results, "theory", "localisation_length_small"));
+    results_free(results);
+}
+END_TEST
+
+int main(void) {
+    Suite *suite = suite_create("theory");
+    TCase *tests = tcase_create("runs");
+    tcase_set_timeout(tests, 120);
+    tcase_add_test(tests, a_glass_has_all_that_is_asked_for);
+    tcase_add_test(tests, the_total_is_the_sum_over_ordered_pairs);
+    tcase_add_test(tests, a_fluid_keeps_nothing);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed != 0;
+}
