@@ -30,7 +30,8 @@ static const Node *nth(const Node *parent, size_t index) {
 }
 
 static const Node *species_map(const Node *root) {
-    return place(tree_find(root, "system"), "species", NULL);
+    const Node *system = tree_find(root, "system");
+    return place(system ? system : tree_find(root, "theory"), "species", NULL);
 }
 
 // The species that the sentence names in quotes, "... species 'NAME' ..."; NULL if none.
@@ -284,12 +285,16 @@ Status judge_plan(const Node *root, const Plan *plan) {
 }
 
 Status judge_theory(const Node *root, const TheoryPlan *theory) {
-    const Node *map = tree_find(root, "theory"), *species = tree_find(map, "species");
+    const Node *map = tree_find(root, "theory");
     double sum = 0;
-    for (size_t a = 0; a < theory->species_count; a++) sum += theory->species[a].fraction;
-    if (!(fabs(sum - 1) <= FRACTIONS_OFF))
-        return tree_fail(species, "the fractions of the species add to %.10g; they must add to 1",
-                         sum);
+    bool complete = true;
+    for (size_t a = 0; a < theory->species_count; a++) {
+        complete = complete && theory->species[a].fraction > 0;
+        sum += theory->species[a].fraction;
+    }
+    if (complete && !(fabs(sum - 1) <= FRACTIONS_OFF))
+        return tree_fail(tree_find(map, "species"),
+                         "the fractions of the species add to %.10g; they must add to 1", sum);
     return placed(root, map, theory_check(theory));
 }
 
