@@ -300,6 +300,7 @@ const ObservableKind observable_acceptance = {
     .name = "acceptance",
     .about = "Acceptance of Monte Carlo, the time that a cycle was worth, and how other clocks "
              "would differ.",
+    .of_motion = true,
     .options = {rows, sizeof rows / sizeof *rows, sizeof(AcceptanceSettings)},
     .check = check,
     .create = create,

@@ -34,7 +34,7 @@ Lags lags_of(const Clock *clock, double first, double last, int64_t per_decade, 
     const int64_t longest =
         last > 0 ? whole_ticks(clock, last) : between(clock->ticks / 3, 1, clock->ticks);
     Lags lags = {.spacing = round_up(round_up(longest, origins) / origins, step)};
-    const int64_t far = SPACINGS_FAR * lags.spacing;
+    const int64_t far = SPACINGS_FAR * lags.spacing, within_step = clock->whole_steps ? step : 1;
     const double ratio = pow(10, 1 / (double)per_decade);
     const double before_last = (double)longest / sqrt(ratio); // no near twin of the longest lag
     for (double lag = (double)shortest; lag < before_last; lag *= ratio) {
@@ -42,11 +42,11 @@ Lags lags_of(const Clock *clock, double first, double last, int64_t per_decade, 
         if (lags.count && lags.ticks[lags.count - 1] < step && lag > (double)step) {
             append(&lags, step);
         }
-        append(&lags, round_near(lag, lag < (double)step  ? 1
+        append(&lags, round_near(lag, lag < (double)step  ? within_step
                                       : lag < (double)far ? step
                                                           : lags.spacing));
     }
-    append(&lags, round_near((double)longest, longest < step ? 1 : lags.spacing));
+    append(&lags, round_near((double)longest, longest < step ? within_step : lags.spacing));
     while (lags.count > 1 && lags.ticks[lags.count - 1] > clock->ticks) lags.count--;
     lags.slots = (size_t)round_up(lags.ticks[lags.count - 1], lags.spacing) / lags.spacing;
     return lags;

@@ -19,6 +19,7 @@ typedef struct Clock {
     const char *stage;  // its name, for the results
     bool flies;         // there are velocities and collisions
     bool thermostatted; // velocities are redrawn: positions diffuse
+    bool whole_steps;   // there are configurations at whole steps only: those of a trajectory
 } Clock;
 
 typedef struct ObservableKind ObservableKind;
@@ -32,6 +33,7 @@ typedef struct Observer {
 struct ObservableKind {
     const char *name;
     const char *about; // one sentence: what it is, its source
+    bool of_motion;    // needs velocities or the Tally, which no stored configuration has
     OptionTable options;
     // BAD_DATA with a sentence that ends "...; do this", before anything runs. May be NULL.
     Status (*check)(const Settings *settings, const System *system, const Clock *clock);

@@ -185,6 +185,7 @@ const ObservableKind observable_pressure = {
     .name = "pressure",
     .about = "Pressure, compressibility factor and collision rate from the momentum that "
              "collisions exchange.",
+    .of_motion = true,
     .options = {rows, sizeof rows / sizeof *rows, sizeof(PressureSettings)},
     .check = check,
     .create = create,

@@ -200,6 +200,7 @@ const ObservableKind observable_velocity_distribution = {
     .name = "velocity_distribution",
     .about = "Histogram of velocity components per species against Maxwell's, and the kinetic "
              "temperature.",
+    .of_motion = true,
     .options = {rows, sizeof rows / sizeof *rows, sizeof(VelocitySettings)},
     .check = check,
     .create = create,

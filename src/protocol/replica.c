@@ -100,6 +100,24 @@ int64_t plan_frames(const Plan *plan) {
     return frames;
 }
 
+// Where the stage before ends with a frame, this one begins with it: unless its method moves the
+// particles before its time begins.
+static bool goes_on_from_a_frame(const Plan *plan, size_t stage) {
+    if (plan->stages[stage].dynamics.kind->prepare) return false;
+    return plan_clock(plan, stage - 1).ticks % frame_ticks(plan, stage - 1) == 0;
+}
+
+StageFrames plan_stage_frames(const Plan *plan, size_t stage) {
+    StageFrames frames = {.every = frame_ticks(plan, stage), .start = -1};
+    if (!frames.every) return frames;
+    for (size_t s = 0; s < stage; s++) frames.first += stage_frames(plan, s);
+    if (records_its_start(plan, stage))
+        frames.start = frames.first++;
+    else if (goes_on_from_a_frame(plan, stage))
+        frames.start = frames.first - 1;
+    return frames;
+}
+
 static Status make_propagator(Replica *replica) {
     const Dynamics *dynamics = &replica->plan->stages[replica->stage].dynamics;
     replica->clock = plan_clock(replica->plan, replica->stage);

@@ -30,6 +30,15 @@ void replica_frame_taken(Replica *replica);
 int64_t replica_frames_done(const Replica *replica); // taken so far, over all stages
 int64_t plan_frames(const Plan *plan);               // of one replica, over all stages
 
+// Where a stage's frames are in the trajectory of a replica.
+typedef struct StageFrames {
+    int64_t every; // ticks between frames; 0: the stage is not recorded
+    int64_t start; // the frame at its start; -1 if there is none
+    int64_t first; // the frame after `every` ticks
+} StageFrames;
+
+StageFrames plan_stage_frames(const Plan *plan, size_t stage);
+
 const State *replica_state(const Replica *replica);
 size_t replica_stage(const Replica *replica);
 double replica_stage_time(const Replica *replica);    // in the stage's unit

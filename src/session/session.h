@@ -32,3 +32,10 @@ void session_request_checkpoint(Session *session);
 // `report_note`: why the report lacks something, or NULL.
 Status session_finish(Session *session, Results **out, const char **report_note);
 void session_close(Session *session);
+
+// Measures again, from the trajectories in `directory`, what the stages of `plan` that were
+// recorded observe; the plan may observe other things than the run did, with other settings, but
+// nothing that needs velocities or collisions (`of_motion`). An observer sees the configurations
+// that there are; where these are those that it saw in the run, it gives the same bits. With what
+// is derived.
+Status session_analyse(Results **out, const Plan *plan, const char *directory);

@@ -45,6 +45,17 @@ Status state_create(State **out, const System *system) {
     return OK;
 }
 
+void state_place(State *state, const double *position, const int32_t *image,
+                 const double *orientation) {
+    for (size_t i = 0; i < state->count; i++) {
+        for (size_t a = 0; a < 3; a++) {
+            state->position[a][i] = position[3 * i + a];
+            state->image[a][i] = image[3 * i + a];
+            if (state->oriented) state->orientation[a][i] = orientation[3 * i + a];
+        }
+    }
+}
+
 void state_free(State *state) {
     if (!state) return;
     memory_free(state->species_of);

@@ -33,6 +33,11 @@ static inline double state_unfolded(const State *state, int axis, size_t particl
     return state->position[axis][particle] + state->image[axis][particle] * state->box.edge[axis];
 }
 
+// Puts the particles where a stored configuration has them, in rows of three: folded positions,
+// image counts and, where they have axes, orientations. Velocities stay what they are.
+void state_place(State *state, const double *position, const int32_t *image,
+                 const double *orientation);
+
 double state_packing_fraction(const State *state);
 void state_archive(State *state, Archive *archive); // all but the system, which the plan has
 
