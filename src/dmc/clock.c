@@ -8,7 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-static const int64_t CYCLES_PER_MARK = 32; // one of these is measured as a whole: 3 % of the work
+// One of these cycles is measured as a whole: 3 % of the work, and in calibrations every other.
+static const int64_t CYCLES_PER_MARK = 32, CYCLES_PER_MARK_CALIBRATING = 2;
 
 // What a cycle did to a species, seen as a whole and trial by trial.
 typedef struct CycleSquares {
@@ -24,8 +25,9 @@ struct ChainClock {
     FreeMove free[SPECIES_MOST];
     double free_cycle[SPECIES_MOST]; // of a free body, in d^2/D0
     int64_t trials;                  // since clock_restart
-    double carried;                  // fraction of a trial
-    MoveTally moves[SPECIES_MOST];   // since clock_restart
+    bool calibrating;
+    double carried;                // fraction of a trial
+    MoveTally moves[SPECIES_MOST]; // since clock_restart
     CycleSquares cycles[SPECIES_MOST];
     MoveTally moves_at_mark[SPECIES_MOST];
     double *mark[6]; // unfolded positions and axes when the measured cycle began
@@ -138,9 +140,14 @@ static bool marks_cycles(const ChainClock *clock) {
     return clock->settings.kind == CLOCK_MATCHING && clock->settings.span == MATCH_PER_CYCLE;
 }
 
+static int64_t mark_period(const ChainClock *clock) {
+    const int64_t cycles = clock->calibrating ? CYCLES_PER_MARK_CALIBRATING : CYCLES_PER_MARK;
+    return cycles * (int64_t)clock->state->count;
+}
+
 // Trials since the last mark.
 static int64_t since_mark(const ChainClock *clock) {
-    return clock->trials % (CYCLES_PER_MARK * (int64_t)clock->state->count);
+    return clock->trials % mark_period(clock);
 }
 
 // Trials.
@@ -171,7 +178,7 @@ static int64_t least(int64_t a, int64_t b) {
 
 Status clock_run(ChainClock *clock, int64_t trials, Tally *tally) {
     if (!marks_cycles(clock)) return run_part(clock, trials, tally);
-    const int64_t cycle = (int64_t)clock->state->count, period = CYCLES_PER_MARK * cycle;
+    const int64_t cycle = (int64_t)clock->state->count, period = mark_period(clock);
     while (trials > 0) {
         const int64_t since = since_mark(clock);
         if (since == 0) set_mark(clock);
@@ -181,6 +188,10 @@ Status clock_run(ChainClock *clock, int64_t trials, Tally *tally) {
         trials -= part;
     }
     return OK;
+}
+
+void clock_calibrate(ChainClock *clock, bool calibrating) {
+    clock->calibrating = calibrating;
 }
 
 void clock_publish(ChainClock *clock) {

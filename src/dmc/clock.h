@@ -9,6 +9,8 @@
 
 #include "dmc/amplitude.h"
 
+#include <stdbool.h>
+
 typedef enum ClockKind { CLOCK_ACCEPTANCE, CLOCK_MATCHING, CLOCKS } ClockKind;
 
 // What diffusion is matched; a body without an axis has one, that of all directions.
@@ -47,6 +49,9 @@ void clock_restart(ChainClock *clock);
 // moves as run(a + b), but for the rounding of sums.
 Status clock_run(ChainClock *clock, int64_t trials, Tally *tally);
 void clock_publish(ChainClock *clock); // see chain_publish
+
+// While it calibrates, many more whole cycles are measured. Between whole cycles only.
+void clock_calibrate(ChainClock *clock, bool calibrating);
 
 double clock_acceptance(const ChainClock *clock, size_t species); // NaN before its first trial
 uint64_t clock_trials(const ChainClock *clock, size_t species);

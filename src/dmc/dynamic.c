@@ -289,6 +289,7 @@ static Status check_one_clock(const DynamicPropagator *made) {
 static Status prepare(Propagator *propagator) {
     DynamicPropagator *made = own(propagator);
     const int64_t count = (int64_t)made->state->count, half = made->set.calibration / 2 * count;
+    clock_calibrate(made->clock, true);
     for (int k = 0; k < ADJUSTMENTS; k++) {
         clock_restart(made->clock);
         TRY(clock_run(made->clock, half / ADJUSTMENTS, NULL));
@@ -296,6 +297,7 @@ static Status prepare(Propagator *propagator) {
     }
     clock_restart(made->clock);
     TRY(clock_run(made->clock, half, NULL));
+    clock_calibrate(made->clock, false);
     clock_publish(made->clock);
     TRY(check_running(made));
     return check_one_clock(made);
