@@ -23,6 +23,11 @@ layout() {
         sort -u
 }
 
+# What a merge left undecided.
+merges() {
+    sources '*' | tr '\n' '\0' | xargs -0 grep -nE '^(<{7}|>{7}) ' | sed 's/\(:[0-9]*\):.*/\1: a merge was not decided/'
+}
+
 # The licence in one line, then what the file is for.
 first_lines() {
     sources '*.[ch]' '*.cpp' '*.sh' '*.cmake' '*CMakeLists.txt' '*.def' 'Makefile' '.ci/run' |
@@ -66,7 +71,7 @@ american() {
         grep -v -e ':yaml_' -e ':PTHREAD_' | sed 's/:\([0-9]*\):\(.*\)/:\1: American spelling: \2/'
 }
 
-{ layout; first_lines; left_for_later; long_functions; american; } >"$found" || true
+{ layout; merges; first_lines; left_for_later; long_functions; american; } >"$found" || true
 if [ -s "$found" ]; then
     cat "$found"
     echo "style: $(wc -l <"$found") places to change" >&2
