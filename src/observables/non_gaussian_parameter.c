@@ -13,7 +13,7 @@ typedef struct MomentSettings {
     LagSettings lags;
 } MomentSettings;
 
-static const Option rows[] = {LAG_OPTIONS(MomentSettings, lags),
+static const Option rows[] = {LAG_OPTIONS_OF(MomentSettings, lags, 10, 32),
                               WAITING_OPTION(MomentSettings, lags)};
 
 typedef struct Moments {

@@ -25,7 +25,7 @@ static const Option rows[] = {
      .most = 1e6,
      .unit = "d",
      .about = "A particle within it of where it was overlaps with itself."},
-    LAG_OPTIONS(OverlapSettings, lags),
+    LAG_OPTIONS_OF(OverlapSettings, lags, 10, 32),
     WAITING_OPTION(OverlapSettings, lags),
 };
 

@@ -44,7 +44,7 @@ static const Option rows[] = {
      .about = "Directions of the wave vector, beside their mean; empty: all that there are, x, y, "
               "xy and -xy in two dimensions.",
      .choices = direction_names},
-    LAG_OPTIONS(SelfSettings, lags),
+    LAG_OPTIONS_OF(SelfSettings, lags, 10, 32),
     WAITING_OPTION(SelfSettings, lags),
 };
 

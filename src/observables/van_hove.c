@@ -35,7 +35,7 @@ static const Option rows[] = {
      .most = 1000,
      .unit = "d",
      .about = "Width of a bin of distances."},
-    LAG_OPTIONS_OF(VanHoveSettings, lags, 1, 64),
+    LAG_OPTIONS_OF(VanHoveSettings, lags, 1, 32),
     WAITING_OPTION(VanHoveSettings, lags),
 };
 
