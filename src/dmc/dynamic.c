@@ -246,11 +246,12 @@ static Status create(Propagator **out, const Settings *settings, State *state, R
 }
 
 // Where a species is slower than the first, longer steps; its acceptance falls with them, so that
-// the square root converges from one side.
-static Status adjust(DynamicPropagator *made, size_t species) {
+// the square root converges from one side. `share` of that is taken, less and less, so that the
+// noise of all adjustments averages out.
+static Status adjust(DynamicPropagator *made, size_t species, double share) {
     const System *system = &made->state->system;
     const double pace = clock_cycle_of(made->clock, 0) / clock_cycle_of(made->clock, species);
-    const double factor = sqrt(fmin(fmax(pace, 0.25), 4));
+    const double factor = 1 + share * (sqrt(fmin(fmax(pace, 0.25), 4)) - 1);
     const double step = fmin(clock_step(made->clock, species) * factor, 1);
     const ChainSettings chain = chain_settings(&made->set);
     const Diffusion diffusion = species_diffusion(&system->species[species]);
@@ -299,7 +300,8 @@ static Status prepare(Propagator *propagator) {
     for (int k = 0; k < ADJUSTMENTS; k++) {
         clock_restart(made->clock);
         TRY(clock_run(made->clock, half / ADJUSTMENTS, NULL));
-        for (size_t s = 1; s < made->state->system.species_count; s++) TRY(adjust(made, s));
+        for (size_t s = 1; s < made->state->system.species_count; s++)
+            TRY(adjust(made, s, 2.0 / (k + 2)));
     }
     clock_restart(made->clock);
     TRY(clock_run(made->clock, half, NULL));

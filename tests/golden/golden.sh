@@ -1,20 +1,23 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Same bits: the run of binary.yaml gives the same results and the same trajectories, byte for byte,
-# however it is made. golden.sh BUILD WHAT, where WHAT is one of
+# Same bits: the run of a run file of this folder gives the same results and the same trajectories,
+# byte for byte, however it is made. golden.sh BUILD WHAT [NAME], where NAME.yaml is the run file
+# (binary if none is given) and WHAT is one of
 #   threads       1, 2 and 5 threads
 #   vectors       portable, AVX2 and AVX-512 kernels
 #   resume        ended by SIGTERM again and again, and resumed
+#   kills         the same by SIGKILL: goes on from the last checkpoint
 #   compilers     gcc and clang, with and without optimisation (builds them in BUILD/golden-*);
 #                 a build made as BUILD was gives the same libperrin.a
 #   recorded      the trajectory recorded in recorded.txt
-#   record        writes recorded.txt anew
+#   record        writes its line of recorded.txt anew
 set -eu
 build=$(cd "$1" && pwd)
 what=$2
+name=${3:-binary}
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
-work=$build/golden/$what
+work=$build/golden/$what-$name
 rm -rf "$work"
 mkdir -p "$work"
 cd "$work"
@@ -28,7 +31,7 @@ perrin=$build/perrin
 golden_run() { # DIR FLAGS...
     directory=$1
     shift
-    "$perrin" run "$here/binary.yaml" -o "$directory" --quiet "$@" >"$directory.out" 2>&1
+    "$perrin" run "$here/$name.yaml" -o "$directory" --quiet "$@" >"$directory.out" 2>&1
 }
 
 # All that the physics has a say in: the numbers, not who made them and when.
@@ -63,19 +66,21 @@ vectors)
         same_as_reference $path
     done
     ;;
-resume)
+resume | kills)
     # Ended later at every attempt, so that a slow machine comes to an end as well. A signal that
     # comes before the program can take it just kills.
+    signal=TERM
+    if [ "$what" = kills ]; then signal=KILL; fi
     resumed=0
     status=75
     for attempt in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do
         status=0
-        timeout -s TERM --preserve-status "$(echo "$attempt" | awk '{ print 0.05 * $1 }')" \
-            "$perrin" run "$here/binary.yaml" -o resumed --quiet --threads 2 >resumed.out 2>&1 ||
+        timeout -s $signal --preserve-status "$(echo "$attempt" | awk '{ print 0.05 * $1 }')" \
+            "$perrin" run "$here/$name.yaml" -o resumed --quiet --threads 2 >resumed.out 2>&1 ||
             status=$?
         case $status in
         0) break ;;
-        75) resumed=$((resumed + 1)) ;;
+        75 | 137) resumed=$((resumed + 1)) ;;
         143) ;;
         *) fail "exit $status: $(cat resumed.out)" ;;
         esac
@@ -105,12 +110,10 @@ compilers)
 recorded | record)
     hash=$("$build/tests/golden/frame_hash" reference/trajectory/*.h5)
     if [ "$what" = record ]; then
-        {
-            echo "# Hash of the trajectories of binary.yaml; see README.md before renewing it."
-            echo "$hash"
-        } >"$here/recorded.txt"
+        sed -i "/^$name /d" "$here/recorded.txt"
+        echo "$name $hash" >>"$here/recorded.txt"
     fi
-    grep -qx "$hash" "$here/recorded.txt" ||
+    grep -qx "$name $hash" "$here/recorded.txt" ||
         fail "the trajectory has changed: its hash is $hash; tests/golden/README.md says what to do"
     echo "the recorded trajectory"
     ;;
