@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The glass transition. Near it phi = phi_c + a2 s^2 + a3 s^3 + ... with s = 1 - E, E the largest
 // eigenvalue of the stability map; lambda, form factors and eigenvectors are power series in s.
-// Five states with s between 0.05 and 0.01 give all of them at s = 0, which bisection never
+// Five states with s between 0.04 and 0.009 give all of them at s = 0, which bisection never
 // reaches: there form factors converge ever more slowly.
 #include "mct/critical.h"
 
@@ -15,11 +15,12 @@
 #include <string.h>
 
 static const double NEAR = 0.25; // s of a glass from which the states are aimed at
-static const double AIMS[] = {0.05, 0.035, 0.025, 0.015, 0.01};
-enum { STATES = 5, BISECTIONS_MOST = 40, TRIES_MOST = 60 };
+static const double AIMS[] = {0.04, 0.028, 0.02, 0.013, 0.009};
+enum { STATES = 5, BISECTIONS_MOST = 40, TRIES_MOST = 60, LOWERINGS = 6 };
+static const double LOWERING = 0.15;   // of the interval that is searched
 static const double CURVATURE = 0.3;   // of phi/phi_c in s, a guess
 static const double TOLERANCE = 0.4;   // of what is aimed at: how far a state may lie from it
-static const double SLOPE_STEP = 1e-4; // of phi/phi_c, for the derivative of sigma
+static const double SLOPE_STEP = 1e-3; // of phi/phi_c, for the derivative of sigma
 
 typedef struct CriticalState {
     double packing_fraction, s, lambda;
@@ -40,13 +41,24 @@ typedef struct Search {
     size_t evaluations;
 } Search;
 
+// The structure of the densest glass to begin with: some closures have no solution as dense as
+// asked for, and are asked for less.
+static Status solve_high(Search *search, const Structure **structure) {
+    Status status = oz_solve(search->oz, search->high, structure);
+    for (int tries = 0; status == UNHEALTHY && tries < LOWERINGS; tries++) {
+        search->high -= LOWERING * (search->high - search->low);
+        status = oz_solve(search->oz, search->high, structure);
+    }
+    return status;
+}
+
 static Status search_create(Search *search, const CriticalSearch *wanted) {
     const Structure *structure = NULL;
     *search = (Search){.low = wanted->low, .high = wanted->high};
     TRY(grid_create(&search->grid, wanted->mixture.dimension, wanted->count, wanted->last));
     TRY(oz_create(&search->oz, wanted->closure, &wanted->mixture, search->grid->wave_number,
                   search->grid->count));
-    TRY(oz_solve(search->oz, wanted->high, &structure));
+    TRY(solve_high(search, &structure));
     TRY(model_create(&search->model, search->grid, structure));
     TRY(stability_create(&search->stability, search->model));
     TRY(NEW_ARRAY(search->form, search->model->size));
@@ -93,9 +105,9 @@ static Status look(Search *search, double packing_fraction, bool *glass) {
 
 static Status bisect(Search *search, const CriticalSearch *wanted) {
     bool glass;
-    TRY(look(search, wanted->high, &glass));
+    TRY(look(search, search->high, &glass));
     if (!glass)
-        return status_fail(BAD_DATA, "at packing fraction %g there is no glass", wanted->high);
+        return status_fail(BAD_DATA, "at packing fraction %g there is no glass", search->high);
     for (int step = 0; step < BISECTIONS_MOST && search->s > NEAR; step++)
         TRY(look(search, (search->low + search->high) / 2, &glass));
     if (search->low > wanted->low) return OK;

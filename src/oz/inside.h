@@ -4,14 +4,20 @@
 
 #include "oz/oz.h"
 
-// Fills `direct` and `contact` of a structure whose other fields are set.
-typedef struct Discs Discs; // Percus-Yevick discs by collocation
+// Each fills `direct` and `contact` of a structure whose other fields are set.
 
 void closed_spheres(Structure *structure); // Percus-Yevick, any mixture
 void closed_verlet_weis(Structure *structure);
 void closed_fundamental(Structure *structure);
 void closed_baus_colot(Structure *structure);
 
+typedef struct Discs Discs; // Percus-Yevick discs by collocation
 Status discs_create(Discs **out, const Mixture *mixture, const double *wave_number, size_t count);
 void discs_free(Discs *discs);
 Status discs_solve(Discs *discs, Structure *structure, OzEffort *effort);
+
+typedef struct Closures Closures; // any closure, on grids
+Status closures_create(Closures **out, Closure closure, const Mixture *mixture,
+                       const double *wave_number, size_t count);
+void closures_free(Closures *closures);
+Status closures_solve(Closures *closures, Structure *structure, OzEffort *effort);

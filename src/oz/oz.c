@@ -31,11 +31,16 @@ static const struct {
     [CLOSURE_BAUS_COLOT] = {closed_baus_colot, 2},
 };
 
+bool oz_is_of_one_species(Closure closure) {
+    return closed_forms[closure].fill != NULL;
+}
+
 struct Oz {
     Closure closure;
     Structure structure;
     double *wave_number;
-    Discs *discs;
+    Discs *discs;       // one of the two,
+    Closures *closures; // or none: a closed form
     OzEffort effort;
 };
 
@@ -61,7 +66,10 @@ static Status prepare(Oz *oz, const double *wave_number, size_t count) {
     TRY(NEW_ARRAY(s->factor, pairs * count));
     memcpy(oz->wave_number, wave_number, count * sizeof *wave_number);
     s->wave_number = oz->wave_number;
-    const bool discs = oz->closure == CLOSURE_PERCUS_YEVICK && s->mixture.dimension == 2;
+    const bool percus_yevick = oz->closure == CLOSURE_PERCUS_YEVICK;
+    if (!percus_yevick && !closed_forms[oz->closure].fill)
+        return closures_create(&oz->closures, oz->closure, &s->mixture, wave_number, count);
+    const bool discs = percus_yevick && s->mixture.dimension == 2;
     return discs ? discs_create(&oz->discs, &s->mixture, wave_number, count) : OK;
 }
 
@@ -84,6 +92,7 @@ Status oz_create(Oz **out, Closure closure, const Mixture *mixture, const double
 void oz_free(Oz *oz) {
     if (!oz) return;
     discs_free(oz->discs);
+    closures_free(oz->closures);
     memory_free(oz->wave_number);
     memory_free(oz->structure.direct);
     memory_free(oz->structure.factor);
@@ -92,6 +101,7 @@ void oz_free(Oz *oz) {
 
 static Status fill_direct(Oz *oz) {
     if (oz->discs) return discs_solve(oz->discs, &oz->structure, &oz->effort);
+    if (oz->closures) return closures_solve(oz->closures, &oz->structure, &oz->effort);
     if (closed_forms[oz->closure].fill)
         closed_forms[oz->closure].fill(&oz->structure);
     else

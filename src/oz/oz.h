@@ -6,6 +6,8 @@
 
 #include "oz/mixture.h"
 
+#include <stdbool.h>
+
 typedef enum Closure {
 #define CLOSURE(id, name, about) id,
 #include "oz/closures.def"
@@ -26,6 +28,8 @@ typedef struct Structure {
     double *factor;                     // S_ab(q), [pair][count]
     double contact[MIXTURE_PAIRS_MOST]; // g_ab at contact; NaN where the closed form has none
 } Structure;
+
+bool oz_is_of_one_species(Closure closure); // and no other
 
 typedef struct Oz Oz;
 

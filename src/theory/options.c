@@ -180,10 +180,9 @@ static Status check_fractions(const TheoryPlan *plan) {
 }
 
 Status theory_check(const TheoryPlan *plan) {
-    const bool of_one_species = plan->structure != CLOSURE_PERCUS_YEVICK;
     TRY(check_fractions(plan));
     if (plan->calculate == 0) return status_fail(BAD_DATA, "calculate names nothing");
-    if (of_one_species && plan->species_count > 1)
+    if (oz_is_of_one_species((Closure)plan->structure) && plan->species_count > 1)
         return status_fail(BAD_DATA, "structure = %s is for one species, not %zu",
                            theory_structure_name(plan), plan->species_count);
     if (plan->packing_fraction != 0 && plan->separation != 0)

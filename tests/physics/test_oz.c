@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Structures of hard discs and spheres against exact results and independent solutions.
+#include "oz/inside.h"
 #include "oz/oz.h"
 
 #include <check.h>
 #include <math.h>
+#include <string.h>
 
 static const Mixture DISCS = {2, 1, {1}, {1}};
 static const Mixture SPHERES = {3, 1, {1}, {1}};
@@ -120,6 +122,119 @@ START_TEST(closed_forms_of_discs_reproduce_their_numbers) {
 }
 END_TEST
 
+// To second order in density every closure is exact: b3 of discs and b3 = 10 of spheres. The next
+// order tells them apart.
+START_TEST(closures_have_the_third_virial_coefficient) {
+    static const Closure closures[] = {CLOSURE_HYPERNETTED_CHAIN, CLOSURE_MODIFIED_VERLET,
+                                       CLOSURE_ROGERS_YOUNG};
+    const double f = 0.01, q = 1;
+    for (int i = 0; i < 6; i++) {
+        const bool discs = i < 3;
+        const Structure *s = NULL;
+        Oz *oz = solved(closures[i % 3], discs ? &DISCS : &SPHERES, f, &q, 1, &s);
+        const double b2 = discs ? 2 : 4, b3 = discs ? 3.128018 : 10;
+        const double z = 1 + b2 * f * s->contact[0];
+        ck_assert_double_eq_tol((z - 1 - b2 * f) / (f * f * b3), 1, 5 * f);
+        oz_free(oz);
+    }
+}
+END_TEST
+
+// (Z - 1 - 4 f - 10 f^2)/f^3 of spheres by the contact value.
+static double fourth_virial(Closure closure, double f) {
+    const double q = 1;
+    const Structure *s = NULL;
+    Oz *oz = solved(closure, &SPHERES, f, &q, 1, &s);
+    const double z = 1 + 4 * f * s->contact[0];
+    oz_free(oz);
+    return (z - 1 - 4 * f - 10 * f * f) / pow(f, 3);
+}
+
+// B4/b^3 by pressure is 0.2500 in Percus-Yevick and 0.4453 in the hypernetted chain, b = 4 f/rho
+// (Hansen & McDonald, Theory of Simple Liquids, table 4.2). Rogers and Young lie between, below the
+// exact 0.28695.
+START_TEST(closures_have_their_own_fourth_virial_coefficient) {
+    double b4[3];
+    static const Closure closures[] = {CLOSURE_PERCUS_YEVICK, CLOSURE_HYPERNETTED_CHAIN,
+                                       CLOSURE_ROGERS_YOUNG};
+    for (int i = 0; i < 3; i++)
+        b4[i] = (2 * fourth_virial(closures[i], 0.02) - fourth_virial(closures[i], 0.04)) / 64;
+    ck_assert_double_eq_tol(b4[0], 0.25, 0.004);
+    ck_assert_double_eq_tol(b4[1], 0.4453, 0.01);
+    ck_assert(b4[2] > 0.27 && b4[2] < 0.287);
+}
+END_TEST
+
+// Pressure and compressibility of Rogers and Young agree, but for the mixing's own change with
+// density, which is small.
+START_TEST(rogers_and_young_agree_with_themselves) {
+    static const double densities[] = {0.396, 0.4, 0.404};
+    const double q = 1e-3;
+    double pressure[3], stiffness = 0;
+    Oz *oz = NULL;
+    ck_assert_int_eq(oz_create(&oz, CLOSURE_ROGERS_YOUNG, &SPHERES, &q, 1), OK);
+    for (int i = 0; i < 3; i++) {
+        const Structure *s = NULL;
+        ck_assert_msg(oz_solve(oz, densities[i], &s) == OK, "%s", status_sentence());
+        pressure[i] = densities[i] * (1 + 4 * densities[i] * s->contact[0]);
+        if (i == 1) stiffness = 1 / s->factor[0];
+    }
+    ck_assert_double_eq_tol((pressure[2] - pressure[0]) / 0.008 / stiffness, 1, 0.03);
+    oz_free(oz);
+}
+END_TEST
+
+// The hypernetted chain of discs has no solution at 0.75, and its values at 0.69 lie between
+// others.
+START_TEST(where_a_closure_has_no_solution_it_says_so) {
+    const double q = 6;
+    const Structure *s = NULL;
+    Oz *oz = NULL;
+    ck_assert_int_eq(oz_create(&oz, CLOSURE_HYPERNETTED_CHAIN, &DISCS, &q, 1), OK);
+    ck_assert_int_eq(oz_solve(oz, 0.75, &s), UNHEALTHY);
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "hypernetted-chain"));
+    ck_assert_int_eq(oz_solve(oz, 0.6, &s), OK);
+    ck_assert(oz_effort(oz).residual < 1e-9);
+    oz_free(oz);
+}
+END_TEST
+
+START_TEST(closures_of_equals_are_those_of_the_pure_fluid) {
+    const Mixture twins = {2, 2, {1, 1}, {0.3, 0.7}};
+    const double q = 6.4;
+    const Structure *one = NULL, *two = NULL;
+    Oz *a = solved(CLOSURE_MODIFIED_VERLET, &DISCS, 0.6, &q, 1, &one);
+    Oz *b = solved(CLOSURE_MODIFIED_VERLET, &twins, 0.6, &q, 1, &two);
+    ck_assert_double_eq_tol(two->factor[0] + 2 * two->factor[1] + two->factor[2], one->factor[0],
+                            1e-7);
+    ck_assert_double_eq_tol(two->contact[1], one->contact[0], 1e-7);
+    oz_free(a);
+    oz_free(b);
+}
+END_TEST
+
+// The grids by themselves: Percus-Yevick on them beside the collocation, to their known error.
+START_TEST(grids_solve_percus_yevick_to_one_in_ten_thousand) {
+    static const double q[] = {1, 6.357, 10};
+    const Structure *exact = NULL;
+    Oz *oz = solved(CLOSURE_PERCUS_YEVICK, &DISCS, 0.69, q, 3, &exact);
+    Closures *closures = NULL;
+    OzEffort effort;
+    double direct[3];
+    Structure s = *exact;
+    s.direct = direct;
+    ck_assert_int_eq(closures_create(&closures, CLOSURE_PERCUS_YEVICK, &DISCS, q, 3), OK);
+    ck_assert_int_eq(closures_solve(closures, &s, &effort), OK);
+    ck_assert_double_eq_tol(s.contact[0] / exact->contact[0], 1, 1e-4);
+    for (size_t i = 0; i < 3; i++) {
+        const double factor = 1 / (1 - s.density * direct[i]);
+        ck_assert_double_eq_tol(factor / exact->factor[i], 1, 1.5e-4);
+    }
+    closures_free(closures);
+    oz_free(oz);
+}
+END_TEST
+
 START_TEST(what_cannot_be_is_refused) {
     Oz *oz = NULL;
     const Structure *s = NULL;
@@ -148,6 +263,12 @@ int main(void) {
     tcase_add_test(tests, a_mixture_of_equals_is_the_pure_fluid);
     tcase_add_test(tests, lengths_have_no_scale);
     tcase_add_test(tests, closed_forms_of_discs_reproduce_their_numbers);
+    tcase_add_test(tests, closures_have_the_third_virial_coefficient);
+    tcase_add_test(tests, closures_have_their_own_fourth_virial_coefficient);
+    tcase_add_test(tests, rogers_and_young_agree_with_themselves);
+    tcase_add_test(tests, where_a_closure_has_no_solution_it_says_so);
+    tcase_add_test(tests, closures_of_equals_are_those_of_the_pure_fluid);
+    tcase_add_test(tests, grids_solve_percus_yevick_to_one_in_ten_thousand);
     tcase_add_test(tests, what_cannot_be_is_refused);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
