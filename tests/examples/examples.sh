@@ -1,0 +1,30 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# examples.sh PROGRAM EXAMPLE: the run file of an example passes its checks as it is, and runs to its
+# end with two replicas and a quarter of every stage's time; the report has no empty place.
+set -eu
+perrin=$1 example=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+"$perrin" check "$example/run.yaml" >"$work/check"
+
+# stage     settle           newtonian, 200 d sqrt(m/kT) in 20000 steps of 0.01
+set --
+for setting in $(awk '$1 == "stage" { printf "protocol.%s.time=%.6g\n", $2, $4 / 4 }' "$work/check"); do
+    set -- "$@" --set "$setting"
+done
+if [ $# -gt 0 ]; then set -- "$@" --set ensemble.replicas=2; fi # a theory has none
+
+"$perrin" run "$example/run.yaml" -o "$work/run" --quiet "$@"
+"$perrin" show "$work/run" >"$work/shown"
+test -s "$work/shown"
+test -s "$work/run/report.html"
+if grep -q 'No figure' "$work/run/report.html"; then
+    echo "figures are missing in the report"
+    exit 1
+fi
+if [ -n "$(command -v gnuplot)" ] && ! grep -q '<figure>' "$work/run/report.html"; then
+    echo "the report has no figure"
+    exit 1
+fi
