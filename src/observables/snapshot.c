@@ -5,6 +5,8 @@
 #include "observables/oriented.h"
 #include "observables/put.h"
 
+#include <math.h>
+
 typedef enum Moment { MOMENT_LAST, MOMENT_FIRST } Moment;
 
 typedef struct SnapshotSettings {
@@ -158,18 +160,39 @@ static Status put_box(const Snapshot *snapshot, const Box *box, Results *results
                                box->edge);
 }
 
-static Status write(const Observer *observer, const State *state, Results *results,
-                    size_t replica) {
-    const Snapshot *snapshot = (const Snapshot *)observer;
-    if ((int64_t)replica != snapshot->settings.replica) return OK;
+static Status put(const Snapshot *snapshot, const State *state, const Box *box, Results *results,
+                  size_t replica) {
     double *ids = NULL;
     TRY(NEW_ARRAY(ids, snapshot->particles));
     for (size_t i = 0; i < snapshot->particles; i++) ids[i] = (double)i;
     Status status = put_particles(snapshot, ids, results, replica);
-    if (status == OK) status = put_box(snapshot, &state->box, results, replica);
+    if (status == OK) status = put_box(snapshot, box, results, replica);
     if (status == OK && state->oriented) status = put_director(snapshot, results, replica);
     memory_free(ids);
     return status;
+}
+
+// The entries of a replica whose configuration is not kept: without them the order of all entries
+// would be that in which replicas end.
+static Status put_nothing(const Snapshot *snapshot, const State *state, Results *results,
+                          size_t replica) {
+    Snapshot nothing = *snapshot;
+    const Box nowhere = {.dimension = state->box.dimension, .edge = {NAN, NAN, NAN}};
+    const size_t count = snapshot->particles * snapshot->columns;
+    TRY(NEW_ARRAY(nothing.rows, count));
+    for (size_t i = 0; i < count; i++) nothing.rows[i] = NAN;
+    for (int a = 0; a < 3; a++) nothing.director[a] = NAN;
+    const Status status = put(&nothing, state, &nowhere, results, replica);
+    memory_free(nothing.rows);
+    return status;
+}
+
+static Status write(const Observer *observer, const State *state, Results *results,
+                    size_t replica) {
+    const Snapshot *snapshot = (const Snapshot *)observer;
+    if ((int64_t)replica == snapshot->settings.replica)
+        return put(snapshot, state, &state->box, results, replica);
+    return put_nothing(snapshot, state, results, replica);
 }
 
 static size_t memory(const Settings *settings, const System *system, const Clock *clock) {
