@@ -23,7 +23,7 @@ static double moment(const Structure *s, int power) {
     return PI / 6 * s->density * sum;
 }
 
-// Baxter's factor function of pair ab, a polynomial on [(R_b - R_a)/2, (R_a + R_b)/2], transformed:
+// Baxter's factor function of pair ab, a polynomial on [(R_a - R_b)/2, (R_a + R_b)/2], transformed:
 // Q_ab(q) = delta_ab - 2 pi sqrt(rho_a rho_b) int dr exp(iqr) Q_ab(r).
 static double complex baxter_factor(const Structure *s, size_t a, size_t b, double q) {
     const Mixture *mixture = &s->mixture;
@@ -32,7 +32,7 @@ static double complex baxter_factor(const Structure *s, size_t a, size_t b, doub
     const double slope = 1 / void_fraction + 3 * size * moment(s, 2) / pow(void_fraction, 2);
     const double offset = -1.5 * size * size * moment(s, 2) / pow(void_fraction, 2);
     double r[RADII], weight[RADII];
-    quadrature_legendre(RADII, (mixture->diameter[b] - size) / 2, contact, r, weight);
+    quadrature_legendre(RADII, (size - mixture->diameter[b]) / 2, contact, r, weight);
     double complex sum = 0;
     for (size_t i = 0; i < RADII; i++) {
         const double value =

@@ -18,6 +18,9 @@ static const double SLICE_STEPS = 32; // times of the correlators between two lo
 static const double BETA_LAST = 1e6, BETA_LEAST = -10;      // of t/t_sigma and of G
 static const double MASTER_FIRST = 1e-5, MASTER_LAST = 1e3; // of t in units of its own scale
 
+// Of the slope of ln dr^2 against ln t from 1, where diffusion is not reached.
+static const double NOT_DIFFUSIVE = 0.01;
+
 struct Theory {
     const TheoryPlan *plan;
     Mixture mixture;
@@ -121,6 +124,10 @@ static Status solve_structure(Theory *theory, Results *results) {
     TRY(results_put_health(results, "structure_residual",
                            "largest residual of the closure, where it is solved numerically", 1e-8,
                            oz_effort(theory->oz).residual));
+    if (theory->critical)
+        TRY(put_number(
+            results, "separation_parameter", "", "sigma = C (phi - phi_c)/phi_c of the state.",
+            theory->critical->slope * (packing_fraction / theory->critical->packing_fraction - 1)));
     if (!wants(theory, THEORY_STRUCTURE)) return OK;
     TRY(put_pairs(results, plan, "structure_factor",
                   "Partial structure factors S_ab(q); total: their sum over all ordered pairs.",
@@ -300,6 +307,24 @@ static Status begin_correlators(Theory *theory) {
     return correlators_create(&theory->correlators, theory->grid, theory->structure, &settings);
 }
 
+// Where the displacement grows like the time between the last two that are kept.
+static Status put_diffusion(const Theory *theory, Results *results) {
+    const Kept *kept = &theory->kept;
+    const size_t species = theory->plan->species_count, last = kept->times - 1;
+    double diffusion[MIXTURE_SPECIES_MOST];
+    if (kept->times < 2) return OK;
+    const double way = kept->time[last] - kept->time[last - 1];
+    for (size_t a = 0; a < species; a++) {
+        const double end = kept->displacement[last * species + a];
+        const double rise = end - kept->displacement[(last - 1) * species + a];
+        if (fabs(rise / way * kept->time[last] / end - 1) > NOT_DIFFUSIVE) return OK;
+        diffusion[a] = rise / way / (2 * (double)theory->plan->dimension);
+    }
+    return put_each(results, theory->plan, "long_time_diffusion", "D0",
+                    "Long-time diffusion coefficient, from the end of the displacement.",
+                    diffusion);
+}
+
 static Status solve_correlators(Theory *theory, Results *results) {
     const TheoryPlan *plan = theory->plan;
     bool done = false;
@@ -310,6 +335,7 @@ static Status solve_correlators(Theory *theory, Results *results) {
                              "Collective intermediate scattering functions F_ab(q,t); total: "
                              "their sum over all ordered pairs.");
     if (status == OK) status = put_normalised(results, plan, &theory->kept);
+    if (status == OK) status = put_diffusion(theory, results);
     end_correlators(theory);
     theory->share = 1;
     return status;

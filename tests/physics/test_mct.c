@@ -3,7 +3,9 @@
 // and adjoint, and glass transitions against values computed with another program.
 #include "mct/critical.h"
 #include "mct/glass.h"
+#include "mct/lines.h"
 
+#include "base/cpu.h"
 #include "base/memory.h"
 #include "numerics/quadrature.h"
 
@@ -157,6 +159,33 @@ START_TEST(slope_is_the_derivative_and_adjoint_its_transpose) {
 }
 END_TEST
 
+// The inner loops give the same bits on every instruction set that this processor has.
+START_TEST(instruction_sets_agree_to_the_bit) {
+    enum { STRIDE = 104, LINES = 9 };
+    static const Lines *const paths[CPU_PATHS] = {&lines_portable, &lines_avx2, &lines_avx512};
+    double *a = memory_new(STRIDE * LINES, sizeof *a), *sums[2];
+    ck_assert_ptr_nonnull(a);
+    for (size_t i = 0; i < STRIDE * LINES; i++) a[i] = sin(1.7 * (double)i) / (1 + (double)(i % 7));
+    for (int k = 0; k < 2; k++) ck_assert_int_eq(NEW_ARRAY(sums[k], STRIDE), OK);
+    for (int path = 1; path <= (int)cpu_path(); path++) {
+        const double *const j[3] = {a, a + STRIDE, a + 2 * STRIDE};
+        double dots[2][5];
+        for (int k = 0; k < 2; k++) {
+            const Lines *with = paths[k * path];
+            dots[k][4] = with->dot(a, a + 3 * STRIDE, STRIDE);
+            with->dots(j, a + 4 * STRIDE, a + 5 * STRIDE, a + 6 * STRIDE, STRIDE, dots[k]);
+            memset(sums[k], 0, STRIDE * sizeof(double));
+            with->add(sums[k], 0.3, a, -0.7, a + STRIDE, STRIDE);
+            with->history(sums[k], STRIDE, 7, a, STRIDE, a + 8 * STRIDE, a + 7 * STRIDE, -STRIDE);
+        }
+        ck_assert_mem_eq(dots[0], dots[1], sizeof dots[0]);
+        ck_assert_mem_eq(sums[0], sums[1], STRIDE * sizeof(double));
+    }
+    memory_free(a);
+    for (int k = 0; k < 2; k++) memory_free(sums[k]);
+}
+END_TEST
+
 // The curvature is the coefficient that the extrapolation knows least well: how well depends on how
 // far from a parabola phi(s) is.
 static CriticalPoint *found(const CriticalSearch *search, double curvature_error) {
@@ -277,6 +306,7 @@ int main(void) {
     tcase_set_timeout(tests, 300);
     tcase_add_test(tests, the_kernel_is_the_direct_double_integral);
     tcase_add_test(tests, slope_is_the_derivative_and_adjoint_its_transpose);
+    tcase_add_test(tests, instruction_sets_agree_to_the_bit);
     tcase_add_test(tests, spheres_freeze_where_another_program_says);
     tcase_add_test(tests, binary_discs_freeze_where_another_program_says);
     tcase_add_test(tests, closures_freeze_where_another_program_says);

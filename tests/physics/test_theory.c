@@ -61,6 +61,9 @@ START_TEST(a_glass_has_all_that_is_asked_for) {
     Results *results = run(&plan);
     const double critical = number(results, "critical_packing_fraction");
     ck_assert_double_eq_tol(number(results, "packing_fraction"), critical * 1.01, 1e-12);
+    ck_assert_double_eq_tol(number(results, "separation_parameter"),
+                            0.01 * number(results, "separation_slope"), 1e-10);
+    ck_assert_ptr_null(results_find_scalar(results, "theory", "long_time_diffusion_small"));
     ck_assert_double_eq(number(results, "is_glass"), 1);
     const double a = number(results, "exponent_a"), b = number(results, "exponent_b");
     ck_assert_double_eq_tol(number(results, "exponent_gamma"), 1 / (2 * a) + 1 / (2 * b), 1e-12);
@@ -110,6 +113,19 @@ START_TEST(a_fluid_keeps_nothing) {
 }
 END_TEST
 
+// D_L = 1/(1/D + int m dt) in a fluid: slower than free, and the larger particles slower.
+START_TEST(a_fluid_diffuses_in_the_end) {
+    TheoryPlan plan = plan_of(1u << THEORY_CORRELATORS);
+    plan.packing_fraction = 0.4;
+    Results *results = run(&plan);
+    const double small = number(results, "long_time_diffusion_small");
+    const double big = number(results, "long_time_diffusion_big");
+    ck_assert(small > 0 && small < 1 && big > 0 && big < small);
+    ck_assert_ptr_null(results_find_scalar(results, "theory", "separation_parameter"));
+    results_free(results);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("theory");
     TCase *tests = tcase_create("runs");
@@ -117,6 +133,7 @@ int main(void) {
     tcase_add_test(tests, a_glass_has_all_that_is_asked_for);
     tcase_add_test(tests, the_total_is_the_sum_over_ordered_pairs);
     tcase_add_test(tests, a_fluid_keeps_nothing);
+    tcase_add_test(tests, a_fluid_diffuses_in_the_end);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
