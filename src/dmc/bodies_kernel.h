@@ -174,9 +174,9 @@ KERNEL unsigned discs_near(const Separation *apart, const Floats u[3], Floats ra
     const Chords c = chords(apart, u, radius_u, v, radius_v);
     const Floats w = floats_sqrt(c.w2), r = floats_sqrt(apart->r2);
     const Floats ru = floats_absolute(c.ru), rv = floats_absolute(c.rv);
-    const Floats none = floats_all(0);
-    const Floats side_u = floats_sqrt(floats_larger(apart->r2 - c.ru * c.ru, none));
-    const Floats side_v = floats_sqrt(floats_larger(apart->r2 - c.rv * c.rv, none));
+    const Floats error = ROUNDING * apart->r2; // at least that of the differences
+    const Floats side_u = floats_sqrt(floats_larger(apart->r2 - c.ru * c.ru, error) + error);
+    const Floats side_v = floats_sqrt(floats_larger(apart->r2 - c.rv * c.rv, error) + error);
     return floats_below(ru, radius_v * w + skin) & floats_below(rv, radius_u * w + skin) &
            floats_below(floats_sqrt(c.apart2), (radius_u + radius_v + skin) * w + 0.001f * skin) &
            floats_below(apart->r2, radius_u * side_u + radius_v * side_v + skin * r);
@@ -300,8 +300,8 @@ KERNEL void anchor(const int flat, Bodies *bodies, size_t i) {
     const BodyRow row = bodies->row[i];
     const Tried tried = tried_row(bodies, row);
     const float swell = lists->swell;
-    const float skin = (float)lists->skin * 1.00001f;
-    const float reach = swell * (float)bodies->longest + skin;
+    const float longest = swell * (float)bodies->longest;
+    const float skin = lists->skin + ROUNDING * (longest + lists->skin), reach = longest + skin;
     lists->anchor[i] = row;
     lists->held[i] = 0;
     leave_cell(&lists->cells, i);
@@ -309,7 +309,7 @@ KERNEL void anchor(const int flat, Bodies *bodies, size_t i) {
         bodies->stale = true;
         return;
     }
-    if (!(skin > 0)) return;
+    if (!(lists->skin > 0)) return;
     const size_t found = search_cells(lists, i, &tried, reach * reach * 1.00001f);
     for (size_t k = 0; k < found; k += WIDTH) {
         const uint32_t *ids = lists->candidate + k;
