@@ -61,7 +61,7 @@ static void load(Bodies *bodies) {
         bodies->unit[a] = state->box.edge[a] / UNITS;
         bodies->units_per_d[a] = UNITS / state->box.edge[a];
         for (size_t i = 0; i < bodies->count; i++) {
-            bodies->pose[i].place[a] = ((int64_t)state->image[a][i] << 32) +
+            bodies->pose[i].place[a] = (int64_t)state->image[a][i] * (INT64_C(1) << 32) +
                                        bodies_whole(state->position[a][i] / bodies->unit[a]);
             bodies->pose[i].axis[a] = state->orientation[a][i];
         }

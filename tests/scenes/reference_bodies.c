@@ -23,7 +23,7 @@ Status reference_bodies_create(ReferenceBodies **out, const ChainSettings *setti
         bodies->unit[a] = state->box.edge[a] / 0x1p32;
         bodies->units_per_d[a] = 0x1p32 / state->box.edge[a];
         for (size_t i = 0; i < state->count; i++) {
-            bodies->pose[i].place[a] = ((int64_t)state->image[a][i] << 32) +
+            bodies->pose[i].place[a] = (int64_t)state->image[a][i] * (INT64_C(1) << 32) +
                                        bodies_whole(state->position[a][i] / bodies->unit[a]);
             bodies->pose[i].axis[a] = state->orientation[a][i];
         }
