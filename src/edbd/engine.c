@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-static const int64_t SNAPSHOT_WINDOWS = 8; // windows at most done again after a failed list
+static const int64_t SNAPSHOT_WINDOWS = 16; // windows at most done again after a failed list
 // Rebuild this many thermal flights of a window before the end of the skin: few where one window
 // does not tell of the next, more where the fastest particle goes on.
 static const double MARGIN_DIFFUSIVE = 2.5, MARGIN_BALLISTIC = 4.5;
@@ -32,8 +32,10 @@ static Status allocate(Engine *engine) {
     TRY(NEW_ARRAY(engine->stamp, slots));
     TRY(NEW_ARRAY(engine->normals, (count + RNG_ROOM) * engine->row / 2));
     for (int a = 0; a < engine->dimension; a++) {
-        TRY(NEW_ARRAY(engine->column[a], slots + BLOCK));
         TRY(NEW_ARRAY(engine->snapshot.image[a], count));
+    }
+    for (int a = 0; a <= engine->dimension; a++) {
+        TRY(NEW_ARRAY(engine->column[a], slots + BLOCK));
     }
     for (engine->buckets = 64; engine->buckets < count / 4;) engine->buckets *= 2;
     engine->buckets_per_time = engine->buckets / engine->settings.window;
@@ -65,10 +67,11 @@ static void take_in(Engine *engine) {
         engine->thermal_of[i] = 1 / sqrt(state->mass[i]);
         engine->fastest = fmax(engine->fastest, engine->thermal_of[i]);
     }
-    // Rounding of places, 2^-24 of the longest edge, in both factors of a product of separations
-    // not much above the largest diameter; and of the product itself.
+    // Places are rounded by up to 2^-24 of the longest edge in each direction; products of
+    // separations not much above the largest diameter, by up to some 2^-24 of themselves besides.
     double longest = 0;
     for (int a = 0; a < engine->dimension; a++) longest = fmax(longest, engine->edge[a]);
+    engine->place_error = 4e-7 * longest;
     engine->sketch_error = (float)(1e-6 * engine->largest * (longest + 2 * engine->largest));
     const bool diffusive = engine->settings.redraw && engine->settings.windows_per_step == 1;
     engine->margin = (diffusive ? MARGIN_DIFFUSIVE : MARGIN_BALLISTIC) * engine->fastest *
@@ -130,10 +133,8 @@ void engine_free(Engine *engine) {
     memory_free(engine->thermal_of);
     memory_free(engine->stamp);
     memory_free(engine->normals);
-    for (int a = 0; a < 3; a++) {
-        memory_free(engine->column[a]);
-        memory_free(engine->snapshot.image[a]);
-    }
+    for (int a = 0; a < 4; a++) memory_free(engine->column[a]);
+    for (int a = 0; a < 3; a++) memory_free(engine->snapshot.image[a]);
     memory_free(engine->bucket);
     memory_free(engine->events);
     list_free(engine);

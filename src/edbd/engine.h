@@ -41,7 +41,8 @@ typedef struct NeighbourList {
 
     size_t pairs; // padded to whole blocks with a pair that never meets
     size_t pair_capacity;
-    uint32_t *first, *second;         // [pairs] where their rows begin
+    uint32_t *first, *second;         // [pairs] where their rows begin, in the order of `first`
+    uint32_t *pair_start;             // [slots + 1] first pair of each
     float *pair_contact2;             // [pairs] square of the contact distance at scale 1
     uint32_t *hit_first, *hit_second; // [pairs] room for those that may meet in a window
 
@@ -90,14 +91,15 @@ struct Engine {
 
     double *rows;       // [count + 1][row]
     float *sketch;      // [count + 1][row] (edbd/sketch.h)
-    float sketch_error; // most that it errs in a square of a length
+    double place_error; // most that a distance errs between places in single precision,
+    float sketch_error; // and the product of two distances
     double *spare_rows; // the same: those of the snapshot, and where a new order is made
     uint32_t *id;       // [count] of each slot
     uint32_t *spare_id;
     double *radius;     // [count]
     double *mass;       // [count]
     float *normals;     // [count + RNG_ROOM][2 or 4] of each, in rows
-    double *column[3];  // [count + BLOCK] scratch: positions while listing
+    float *column[4];   // [count + BLOCK] scratch while listing: places and radii
     double *thermal;    // [count] 1/sqrt(mass)
     uint32_t *stamp;    // [count + 1] collisions of each in this window
     double *thermal_of; // [count] the same, by id

@@ -147,10 +147,9 @@ KERNEL void predict_both(const int dimension, const int growing, Engine *engine,
     const Rows i = {engine->sketch, {own[0], own[1]}};
     for (; at[0] < end[0] || at[1] < end[1]; at[0] += HALF, at[1] += HALF) {
         uint32_t from[2];
-        Wides contact2;
         for (int b = 0; b < 2; b++) from[b] = at[b] < end[b] ? at[b] : none;
-        memcpy(&contact2, list->contact2 + from[0], sizeof contact2 / 2);
-        memcpy((float *)&contact2 + HALF, list->contact2 + from[1], sizeof contact2 / 2);
+        const Wides contact2 =
+            wides_load_halves(list->contact2 + from[0], list->contact2 + from[1]);
         const Rows j = {engine->sketch, {list->neighbour + from[0], list->neighbour + from[1]}};
         unsigned bits = may_meet(dimension, sieve, &i, &j, contact2, &gone);
         for (; bits; bits &= bits - 1) {
@@ -191,10 +190,15 @@ KERNEL void count_overlap(Engine *engine, double r2, double contact2) {
 
 // A particle changes its velocity by `change` at time t, and its virtual origin to match. One store
 // per row: the loads of whole rows that follow would wait for smaller ones.
-KERNEL void kick(const int dimension, double *row, const double change[3], double t) {
+KERNEL void kick(const int dimension, const Engine *engine, size_t at, const double change[3],
+                 double t) {
+    double *row = engine->rows + at;
     if (dimension == 2) {
         const Quad both = {change[0], change[1], change[0], change[1]};
-        *(Quad *)row += both * (Quad){-t, -t, 1, 1};
+        const Quad kicked = *(const Quad *)row + both * (Quad){-t, -t, 1, 1};
+        *(Quad *)row = kicked;
+        sketch_2d(engine, (Pair)__builtin_shufflevector(kicked, kicked, 0, 1),
+                  (Pair)__builtin_shufflevector(kicked, kicked, 2, 3), engine->sketch + at);
         return;
     }
     const Quad velocity = {change[0], change[1], change[2], 0};
@@ -206,6 +210,7 @@ KERNEL void kick(const int dimension, double *row, const double change[3], doubl
     *(Quad *)row = low;
     *(Quad *)(row + 4) = high;
 #endif
+    sketch_3d(engine, &low, &high, engine->sketch + at);
 }
 
 // Sums of r_a r_c over collisions, weighted by momentum: xx xy yy in 2D; xx xy xz yy, yz zz in 3D.
@@ -275,10 +280,8 @@ KERNEL void collide(const int dimension, const int growing, Engine *engine, cons
         change_j[a] = k_j * r[a];
     }
     exchange_add(dimension, sums, r, momentum);
-    kick(dimension, i, change_i, t);
-    kick(dimension, j, change_j, t);
-    sketch_row(dimension, engine, (uint32_t)row * slot_i);
-    sketch_row(dimension, engine, (uint32_t)row * slot_j);
+    kick(dimension, engine, row * slot_i, change_i, t);
+    kick(dimension, engine, row * slot_j, change_j, t);
     engine->tally.collisions++;
     if (engine->log) record(engine, event);
     const uint32_t stamp_i = ++engine->stamp[slot_i], stamp_j = ++engine->stamp[slot_j];
@@ -373,29 +376,6 @@ KERNEL void move_rows(const int dimension, Engine *engine, uint32_t slot, Quad *
     for (int a = 0; a < dimension; a++) fold(engine, row, slot, a);
 }
 
-#if LANES == 8
-// As move_rows, two rows of 2D at a time; `slot` is even.
-KERNEL void move_two_rows(Engine *engine, uint32_t slot, Lanes *farthest) {
-    const double w = engine->settings.window, *edge = engine->edge, big = INFINITY;
-    const Lanes least = {0, 0, -big, -big, 0, 0, -big, -big};
-    const Lanes bound = {edge[0], edge[1], big, big, edge[0], edge[1], big, big};
-    double *row = engine->rows + (size_t)ROW_2D * slot;
-    Lanes place = lanes_load(row);
-    place += __builtin_shufflevector(place, place, 2, 3, 2, 3, 6, 7, 6, 7) *
-             (Lanes){w, w, 0, 0, w, w, 0, 0};
-    lanes_store(row, place);
-    const Lanes away = place - lanes_load(engine->list.anchor + (size_t)ANCHOR * slot);
-    Lanes away2 = away * away;
-    away2 += __builtin_shufflevector(away2, away2, 1, 0, 2, 3, 5, 4, 6, 7);
-    *farthest = (Lanes)_mm512_max_pd((__m512d)*farthest, (__m512d)away2);
-    const unsigned inside = lanes_less(place, bound) & (unsigned)~lanes_less(place, least);
-    if (__builtin_expect((inside & 0xffu) == 0xffu, 1)) return;
-    for (uint32_t k = 0; k < 2; k++) {
-        for (int a = 0; a < 2; a++) fold(engine, row + ROW_2D * k, slot + k, a);
-    }
-}
-#endif
-
 // Particles from..to - 1 as they enter the next window: with a velocity from a Gaussian of variance
 // kT/m per direction (Weysser, thesis, eq. 2.7, corrected) where they are drawn anew.
 KERNEL void open_rows(const int dimension, const int redraw, const Engine *engine, uint32_t from,
@@ -417,28 +397,63 @@ KERNEL void open_rows(const int dimension, const int redraw, const Engine *engin
     }
 }
 
-// Particles from..to - 1 to the end of the window; `from` is even.
-KERNEL void move_some(const int dimension, Engine *engine, uint32_t from, uint32_t to,
-                      Quad *farthest) {
-    uint32_t slot = from;
 #if LANES == 8
-    Lanes farthest_two = {0};
-    const uint32_t even = dimension == 2 ? to & ~1u : from;
-    for (; slot < even; slot += 2) move_two_rows(engine, slot, &farthest_two);
-    const Quad farther = {farthest_two[0] > farthest_two[4] ? farthest_two[0] : farthest_two[4]};
-    quad_keep_larger(farthest, &farther);
-#endif
-    for (; slot < to; slot++) move_rows(dimension, engine, slot, farthest);
+KERNEL unsigned two_rows_stray(const Engine *engine, Lanes rows) {
+    const double *edge = engine->edge, big = INFINITY;
+    const Lanes least = {0, 0, -big, -big, 0, 0, -big, -big};
+    const Lanes bound = {edge[0], edge[1], big, big, edge[0], edge[1], big, big};
+    return lanes_less(rows, least) | (0xffu & ~lanes_less(rows, bound));
 }
 
-// Out of this window and into the next one, while a few particles are at hand.
+// As move_rows and then open_rows, two rows of 2D at a time; `slot` is even.
+KERNEL void move_two_rows(const int redraw, Engine *engine, uint32_t slot, Lanes *farthest) {
+    const double w = engine->settings.window, *thermal = engine->thermal + slot;
+    double *row = engine->rows + (size_t)ROW_2D * slot;
+    Lanes rows = lanes_load(row);
+    Lanes velocity = __builtin_shufflevector(rows, rows, 2, 3, 2, 3, 6, 7, 6, 7);
+    rows += velocity * (Lanes){w, w, 0, 0, w, w, 0, 0};
+    const Lanes away = rows - lanes_load(engine->list.anchor + (size_t)ANCHOR * slot);
+    Lanes away2 = away * away;
+    away2 += __builtin_shufflevector(away2, away2, 1, 0, 2, 3, 5, 4, 6, 7);
+    *farthest = (Lanes)_mm512_max_pd((__m512d)*farthest, (__m512d)away2);
+    if (__builtin_expect(two_rows_stray(engine, rows) != 0, 0)) {
+        lanes_store(row, rows);
+        for (uint32_t k = 0; k < 2; k++) {
+            for (int a = 0; a < 2; a++) fold(engine, row + ROW_2D * k, slot + k, a);
+        }
+        rows = lanes_load(row);
+    }
+    if (redraw) {
+        const Quad drawn = quad_widen(engine->normals + 2 * (size_t)slot) *
+                           (Quad){thermal[0], thermal[0], thermal[1], thermal[1]};
+        velocity = __builtin_shufflevector(drawn, drawn, 0, 1, 0, 1, 2, 3, 2, 3);
+        rows = __builtin_shufflevector(rows, velocity, 0, 1, 10, 11, 4, 5, 14, 15);
+    }
+    lanes_store(row, rows);
+    const Lanes now = __builtin_shufflevector(rows, rows, 0, 1, 0, 1, 4, 5, 4, 5);
+    const Lanes sketch = now + velocity * (Lanes){0, 0, 2 * w, 2 * w, 0, 0, 2 * w, 2 * w};
+    *(EightFloats *)(engine->sketch + (size_t)ROW_2D * slot) =
+        __builtin_convertvector(sketch, EightFloats);
+}
+#endif
+
+// Out of this window and into the next one, a few particles at a time, while they are at hand.
 KERNEL void move_all(const int dimension, const int redraw, Engine *engine) {
     enum { FEW = 32 };
     const uint32_t count = (uint32_t)engine->count;
     Quad farthest = {0};
-    for (uint32_t from = 0; from < count; from += FEW) {
+    uint32_t from = 0;
+#if LANES == 8
+    Lanes farthest_two = {0};
+    const uint32_t even = dimension == 2 ? count & ~1u : 0;
+    for (; from < even; from += 2) move_two_rows(redraw, engine, from, &farthest_two);
+    farthest[0] = farthest_two[0] > farthest_two[4] ? farthest_two[0] : farthest_two[4];
+#endif
+    for (; from < count; from += FEW) {
         const uint32_t to = from + FEW < count ? from + FEW : count;
-        move_some(dimension, engine, from, to, &farthest);
+        for (uint32_t slot = from; slot < to; slot++) {
+            move_rows(dimension, engine, slot, &farthest);
+        }
         open_rows(dimension, redraw, engine, from, to);
     }
     if (farthest[0] > engine->list.farthest2) engine->list.farthest2 = farthest[0];

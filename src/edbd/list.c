@@ -9,10 +9,10 @@
 #include <string.h>
 
 // Skins in d, found by measurement: wide ones cost pairs, narrow ones rebuilding.
-static const double SKIN_DIFFUSIVE[2] = {0.50, 0.45}; // 2D, 3D, velocities drawn in every window
-static const double SKIN_BALLISTIC[2] = {0.70, 0.55}; // or kept for many
+static const double SKIN_DIFFUSIVE[2] = {0.50, 0.50}; // 2D, 3D, velocities drawn in every window
+static const double SKIN_BALLISTIC[2] = {0.80, 0.65}; // or kept for many
 static const double SKIN_WINDOWS = 16;       // least skin, in thermal flights of one window
-static const double INNER_SKIN_WINDOWS = 40; // the inner skin, in the same,
+static const double INNER_SKIN_WINDOWS = 48; // the inner skin, in the same,
 static const double INNER_SKIN_MOST = 0.3;   // where that is below this part of the outer
 static const double FAR_AWAY = 1e15;         // where the particle is that nothing meets
 static const float NEVER = -1e30F;           // contact distance squared of pairs that never meet
@@ -122,7 +122,8 @@ static double largest_displacement(const Engine *engine) {
 static void fill_columns(Engine *engine) {
     for (size_t slot = 0; slot < engine->count; slot++) {
         const double *row = engine->rows + engine->row * slot;
-        for (int a = 0; a < engine->dimension; a++) engine->column[a][slot] = row[a];
+        for (int a = 0; a < engine->dimension; a++) engine->column[a][slot] = (float)row[a];
+        engine->column[engine->dimension][slot] = (float)engine->radius[slot];
     }
 }
 
@@ -236,6 +237,7 @@ static Status list_pairs(Engine *engine, const Grid *grid) {
         TRY(make_room(engine, cell, spans, count));
         engine->kernel->pair_cell(engine, cell, spans, count);
     }
+    list->pair_start[engine->count] = (uint32_t)list->pairs;
     for (; list->pairs % BLOCK; list->pairs++) {
         list->first[list->pairs] = list->second[list->pairs] = nobody;
         list->pair_contact2[list->pairs] = NEVER;
@@ -243,15 +245,14 @@ static Status list_pairs(Engine *engine, const Grid *grid) {
     return OK;
 }
 
-// Where the neighbours of each particle begin, in whole blocks.
+// Where the neighbours of each particle begin, in whole half blocks, and after them one of nobody.
 static Status start_neighbours(Engine *engine, uint32_t *degree) {
     NeighbourList *list = &engine->list;
     const uint32_t shift = engine->row == ROW_2D ? 2 : 3;
-    memset(degree, 0, (engine->count + 1) * sizeof *degree);
-    for (size_t p = 0; p < list->pairs; p++) {
-        degree[list->first[p] >> shift]++;
-        degree[list->second[p] >> shift]++;
+    for (size_t slot = 0; slot < engine->count; slot++) {
+        degree[slot] = list->pair_start[slot + 1] - list->pair_start[slot];
     }
+    for (size_t p = 0; p < list->pair_start[engine->count]; p++) degree[list->second[p] >> shift]++;
     uint32_t end = 0;
     for (size_t slot = 0; slot < engine->count; slot++) {
         list->start[slot] = end;
@@ -259,7 +260,18 @@ static Status start_neighbours(Engine *engine, uint32_t *degree) {
         degree[slot] = list->start[slot];
     }
     list->start[engine->count] = degree[engine->count] = end;
-    return grow_neighbours(list, end + 3 * BLOCK); // padding pairs, nobody with nobody, go there
+    return grow_neighbours(list, end + HALF_BLOCK);
+}
+
+static void pad_neighbours(Engine *engine, const uint32_t *end) {
+    NeighbourList *list = &engine->list;
+    for (size_t slot = 0; slot <= engine->count; slot++) {
+        const uint32_t last = slot < engine->count ? list->start[slot + 1] : end[slot] + HALF_BLOCK;
+        for (uint32_t n = end[slot]; n < last; n++) {
+            list->neighbour[n] = (uint32_t)(engine->count * engine->row);
+            list->contact2[n] = NEVER;
+        }
+    }
 }
 
 // The half list, seen from both partners of each pair.
@@ -268,20 +280,17 @@ static Status list_neighbours(Engine *engine) {
     const uint32_t shift = engine->row == ROW_2D ? 2 : 3;
     uint32_t *end = engine->cell_of; // no longer needed: where each particle's list ends
     TRY(start_neighbours(engine, end));
-    for (size_t p = 0; p < list->pairs; p++) {
-        const uint32_t first = list->first[p], second = list->second[p];
-        const uint32_t one = end[first >> shift]++, other = end[second >> shift]++;
-        list->neighbour[one] = second;
-        list->neighbour[other] = first;
-        list->contact2[one] = list->contact2[other] = list->pair_contact2[p];
-    }
-    for (size_t slot = 0; slot <= engine->count; slot++) {
-        const uint32_t last = slot < engine->count ? list->start[slot + 1] : end[slot] + HALF_BLOCK;
-        for (uint32_t n = end[slot]; n < last; n++) {
-            list->neighbour[n] = (uint32_t)(engine->count * engine->row);
-            list->contact2[n] = NEVER;
+    for (size_t slot = 0; slot < engine->count; slot++) {
+        uint32_t one = end[slot];
+        for (size_t p = list->pair_start[slot]; p < list->pair_start[slot + 1]; p++) {
+            const uint32_t second = list->second[p], other = end[second >> shift]++;
+            list->neighbour[one] = second;
+            list->neighbour[other] = (uint32_t)slot << shift;
+            list->contact2[one++] = list->contact2[other] = list->pair_contact2[p];
         }
+        end[slot] = one;
     }
+    pad_neighbours(engine, end);
     return OK;
 }
 
@@ -369,6 +378,7 @@ Status list_create(Engine *engine) {
     TRY(NEW_ARRAY(list->anchor, ANCHOR * (engine->count + 1)));
     TRY(NEW_ARRAY(list->origin, ANCHOR * (engine->count + 1)));
     TRY(NEW_ARRAY(list->start, engine->count + 1));
+    TRY(NEW_ARRAY(list->pair_start, engine->count + 1));
     TRY(NEW_ARRAY(engine->cell_of, engine->count + 1));
     TRY(NEW_ARRAY(engine->cell_start, engine->cells_most + 1));
     return OK;
@@ -387,6 +397,7 @@ void list_free(Engine *engine) {
     memory_free(list->pruned_second);
     memory_free(list->pruned_contact2);
     memory_free(list->start);
+    memory_free(list->pair_start);
     memory_free(list->neighbour);
     memory_free(list->contact2);
     memory_free(engine->cell_of);

@@ -5,36 +5,40 @@
 
 #include "edbd/engine.h"
 #include "edbd/lanes.h"
+#include "edbd/sketch.h"
 
 static const double ROUNDED_UP = 1 + 1e-6; // for contact distances kept in single precision
 
-// Which of the candidates from slot `from` on are near `slot`, one bit each.
+// Which of the candidates from slot `from` on are near `slot`, one bit each. Places and radii are
+// in single precision, so a few more are found than are near.
 KERNEL unsigned near_slots(const int dimension, const Engine *engine, uint32_t slot, uint32_t from,
-                           uint32_t to, Lanes *contact2) {
-    Lanes r2 = {0};
+                           uint32_t to, Wides *contact2) {
+    const float *const *column = (const float *const *)engine->column;
+    const float skin = (float)(engine->list.skin * ROUNDED_UP + engine->place_error);
+    Wides r2 = {0};
     for (int a = 0; a < dimension; a++) {
-        const Lanes r = lanes_nearest(lanes_all(engine->column[a][slot]) -
-                                          lanes_load_at(engine->column[a] + from),
-                                      lanes_all(engine->edge[a]), lanes_all(engine->edge[a] / 2));
+        const Wides edge = wides_all((float)engine->edge[a]);
+        Wides r = column[a][slot] - wides_load_at(column[a] + from);
+        r = wides_nearest(r, edge);
         r2 = a == 0 ? r * r : r2 + r * r;
     }
-    const Lanes contact = lanes_all(engine->radius[slot]) + lanes_load_at(engine->radius + from);
-    const Lanes range = contact * lanes_all(engine->scale) + lanes_all(engine->list.skin);
+    const Wides contact = column[dimension][slot] + wides_load_at(column[dimension] + from);
+    const Wides range = contact * (float)(engine->scale * ROUNDED_UP) + skin;
     *contact2 = contact * contact;
-    const unsigned bits = lanes_bits(lanes_less(r2, range * range));
-    return to - from < LANES ? bits & ((1u << (to - from)) - 1) : bits;
+    const unsigned bits = wides_less(r2, range * range);
+    return to - from < WIDE ? bits & ((1u << (to - from)) - 1) : bits;
 }
 
 // Adds the pairs of `slot` with the candidates of a span to the half list.
 KERNEL void pair_span(const int dimension, Engine *engine, uint32_t slot, Span span) {
     NeighbourList *list = &engine->list;
     const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D;
-    for (uint32_t from = span.from; from < span.to; from += LANES) {
-        Lanes contact2;
+    for (uint32_t from = span.from; from < span.to; from += WIDE) {
+        Wides contact2;
         const unsigned bits = near_slots(dimension, engine, slot, from, span.to, &contact2);
-        lanes_pack_numbers(list->second + list->pairs, bits, from * row, row);
-        lanes_pack_floats(list->pair_contact2 + list->pairs, bits, contact2);
-        for (int k = 0; k < LANES; k++) list->first[list->pairs + (size_t)k] = slot * row;
+        wides_pack_numbers(list->second + list->pairs, bits, from * row, row);
+        wides_pack(list->pair_contact2 + list->pairs, bits, contact2);
+        for (int k = 0; k < WIDE; k++) list->first[list->pairs + (size_t)k] = slot * row;
         list->pairs += (unsigned)__builtin_popcount(bits);
     }
 }
@@ -45,6 +49,7 @@ KERNEL void pair_cell(const int dimension, Engine *engine, size_t cell, const Sp
                       int count) {
     Engine own = *engine; // a copy, which what is written to the list cannot be: see run()
     for (uint32_t slot = own.cell_start[cell]; slot < own.cell_start[cell + 1]; slot++) {
+        own.list.pair_start[slot] = (uint32_t)own.list.pairs;
         pair_span(dimension, &own, slot, (Span){slot + 1, spans[0].to});
         for (int s = 1; s < count; s++) pair_span(dimension, &own, slot, spans[s]);
     }
@@ -55,26 +60,19 @@ KERNEL void pair_cell(const int dimension, Engine *engine, size_t cell, const Sp
 KERNEL void prune_pairs(const int dimension, Engine *engine) {
     const Engine own = *engine;
     const NeighbourList *list = &own.list;
+    const Sieve sieve = sieve_of(dimension, &own);
+    const float skin = (float)(list->inner_skin * ROUNDED_UP + own.place_error);
     size_t near = 0;
-    for (size_t p = 0; p < list->pairs; p += LANES) {
-        const double *i[LANES], *j[LANES];
-        for (size_t k = 0; k < LANES; k++) {
-            i[k] = own.rows + list->first[p + k];
-            j[k] = own.rows + list->second[p + k];
-        }
-        Lanes r[3], v[3], r2 = {0};
-        lanes_separate(dimension, i, j, r, v);
-        for (int a = 0; a < dimension; a++) {
-            r[a] = lanes_nearest(r[a], lanes_all(own.edge[a]), lanes_all(own.edge[a] / 2));
-            r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
-        }
-        const Lanes contact2 = lanes_widen(list->pair_contact2 + p);
-        const Lanes range =
-            lanes_sqrt(contact2) * lanes_all(own.scale * ROUNDED_UP) + lanes_all(list->inner_skin);
-        const unsigned bits = lanes_bits(lanes_less(r2, range * range));
-        lanes_pack_u32(list->near_first + near, bits, list->first + p);
-        lanes_pack_u32(list->near_second + near, bits, list->second + p);
-        lanes_pack_floats(list->near_contact2 + near, bits, contact2);
+    for (size_t p = 0; p < list->pairs; p += WIDE) {
+        const uint32_t *first = list->first + p, *second = list->second + p;
+        const Rows i = {own.sketch, {first, first + HALF}};
+        const Rows j = {own.sketch, {second, second + HALF}};
+        const Wides contact2 = *(const Wides *)(list->pair_contact2 + p);
+        const Wides range = wides_sqrt(contact2) * (float)(own.scale * ROUNDED_UP) + skin;
+        const unsigned bits = wides_less(distance2(dimension, &sieve, &i, &j), range * range);
+        wides_pack_u32(list->near_first + near, bits, first);
+        wides_pack_u32(list->near_second + near, bits, second);
+        wides_pack(list->near_contact2 + near, bits, contact2);
         near += (unsigned)__builtin_popcount(bits);
     }
     engine->list.near = near;

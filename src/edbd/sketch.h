@@ -14,30 +14,6 @@
 #include "edbd/engine.h"
 #include "edbd/lanes.h"
 
-#define WIDE (2 * LANES) // pairs at a time
-
-typedef float Wides __attribute__((vector_size(4 * WIDE), aligned(4 * WIDE), may_alias));
-typedef int32_t WideBits __attribute__((vector_size(4 * WIDE)));
-
-KERNEL Wides wides_all(float x) {
-    return x - (Wides){0};
-}
-
-// Which of two sets of numbers are less than the others, one bit each.
-KERNEL unsigned wides_less(Wides a, Wides b) {
-#if LANES == 8
-    return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ);
-#elif LANES == 4
-    return (unsigned)_mm256_movemask_ps((__m256)(a < b));
-#elif defined(__x86_64__)
-    return (unsigned)_mm_movemask_ps((__m128)(a < b));
-#else
-    unsigned bits = 0;
-    for (unsigned k = 0; k < WIDE; k++) bits |= (unsigned)(a[k] < b[k]) << k;
-    return bits;
-#endif
-}
-
 // Of pairs, in each half of a register.
 enum { HALF = WIDE / 2 };
 typedef struct Rows {
@@ -63,16 +39,6 @@ KERNEL void wides_take_nearest(Wides *r, Wides *g, Wides edge, Wides half) {
         (Wides)((WideBits)edge & (*r < -half)) - (Wides)((WideBits)edge & (*r > half));
     *r += shift;
     *g += shift;
-#endif
-}
-
-// Writes those of WIDE integers whose bits are set; room for WIDE is needed.
-KERNEL void wides_pack_u32(uint32_t *to, unsigned bits, const uint32_t *from) {
-#if LANES == 8
-    const __m512i all = _mm512_loadu_si512(from);
-    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, all));
-#else
-    for (; bits; bits &= bits - 1) *to++ = from[__builtin_ctz(bits)];
 #endif
 }
 
@@ -208,6 +174,20 @@ KERNEL unsigned may_meet(const int dimension, const Sieve *sieve, const Rows *i,
         product = a == 0 ? r[a] * g[a] : product + r[a] * g[a];
     }
     return wides_less(product, contact2 * sieve->scale2 + sieve->error);
+}
+
+// Squares of the distances of WIDE pairs.
+KERNEL Wides distance2(const int dimension, const Sieve *sieve, const Rows *i, const Rows *j) {
+    Wides r[4], g[4], r2 = {0};
+    if (dimension == 2)
+        sketch_separate_2d(i, j, r, g);
+    else
+        sketch_separate_3d(i, j, r, g);
+    for (int a = 0; a < dimension; a++) {
+        r[a] = wides_nearest(r[a], sieve->edge[a]);
+        r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
+    }
+    return r2;
 }
 
 // Of a particle at a place with a velocity.
