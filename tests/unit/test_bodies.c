@@ -229,6 +229,78 @@ START_TEST(also_where_it_is_dense) {
 }
 END_TEST
 
+enum { POINTS = 24 };
+
+// Along the segment of a rod or round the rim of a platelet, where it is anchored.
+static void core_points(const Bodies *bodies, size_t i, double points[POINTS][3]) {
+    const BodyRow *row = &bodies->lists.anchor[i];
+    const double axis[3] = {row->axis[0], row->axis[1], row->axis[2]};
+    double e[2][3];
+    bodies_frame(axis, e);
+    for (int k = 0; k < POINTS; k++) {
+        const double along = row->core * (2.0 * k / (POINTS - 1) - 1), angle = 2 * PI * k / POINTS;
+        for (int a = 0; a < 3; a++) {
+            const double rim = row->radius * (cos(angle) * e[0][a] + sin(angle) * e[1][a]);
+            points[k][a] = bodies->flat ? rim : along * axis[a];
+        }
+    }
+}
+
+// Of the points of the cores.
+static double nearest_points(const Bodies *bodies, size_t i, size_t j) {
+    double of_i[POINTS][3], of_j[POINTS][3], r[3], nearest2 = INFINITY;
+    core_points(bodies, i, of_i);
+    core_points(bodies, j, of_j);
+    for (int a = 0; a < 3; a++) {
+        const uint32_t apart =
+            (uint32_t)bodies->lists.anchor[j].place[a] - (uint32_t)bodies->lists.anchor[i].place[a];
+        r[a] = (double)(int32_t)apart * bodies->unit[a];
+    }
+    for (int k = 0; k < POINTS * POINTS; k++) {
+        double r2 = 0;
+        for (int a = 0; a < 3; a++) {
+            r2 += bodies_squared(r[a] + of_j[k % POINTS][a] - of_i[k / POINTS][a]);
+        }
+        nearest2 = fmin(nearest2, r2);
+    }
+    return sqrt(nearest2);
+}
+
+static bool is_listed(const BodyLists *lists, size_t i, size_t j) {
+    for (size_t k = 0; k < lists->held[i]; k++) {
+        if (lists->near[i * lists->room + k] == j) return true;
+    }
+    return false;
+}
+
+// At any moment of a run.
+START_TEST(all_whose_cores_are_nearer_than_the_skin_are_on_the_lists) {
+    const System systems[] = {bodies_system(SHAPE_SPHEROCYLINDER, 5, 250, 0.05),
+                              bodies_system(SHAPE_PLATELET, 0, 200, 2)};
+    static const double steps[] = {0.02, 0.1};
+    for (int k = 0; k < 4; k++) {
+        State *state = packed(&systems[k % 2]);
+        Chain *chain = chain_on(state, &MIXED, steps[k / 2]);
+        Tally tally = {0};
+        run(chain, 50000, &tally);
+        const Bodies *bodies = (const Bodies *)chain;
+        const double skin = bodies->lists.skin + (bodies->flat ? 0 : 1); // and contact
+        size_t near = 0;
+        ck_assert(bodies->lists.skin > 0);
+        for (size_t i = 0; i < bodies->count; i++) {
+            for (size_t j = 0; j < bodies->count; j++) {
+                if (i == j || nearest_points(bodies, i, j) >= skin) continue;
+                ck_assert(is_listed(&bodies->lists, i, j));
+                near++;
+            }
+        }
+        ck_assert_uint_gt(near, bodies->count);
+        chain_free(chain);
+        state_free(state);
+    }
+}
+END_TEST
+
 // Upright, so that rods without length are offered the displacements of spheres: their chances are
 // those of the chain of balls. Sigma of a share of N trials: less than 1/(2 sqrt(N)), and twice
 // that for what successive ones have in common.
@@ -374,6 +446,7 @@ int main(void) {
     tcase_add_test(cases, stopped_and_resumed_has_the_bits_of_never_stopped);
     tcase_add_test(cases, lists_and_bounds_give_the_bits_of_the_plain_chain);
     tcase_add_test(cases, also_where_it_is_dense);
+    tcase_add_test(cases, all_whose_cores_are_nearer_than_the_skin_are_on_the_lists);
     tcase_add_test(cases, rods_without_length_are_spheres);
     tcase_add_test(cases, growing_bodies_push_each_other_aside);
     tcase_add_test(cases, a_start_that_overlaps_is_refused);
