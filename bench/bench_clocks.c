@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What Brownian motion costs by each way to it: the long-time diffusion D_L of hard spheres at
-// packing fraction 0.50 by event-driven dynamics and by Monte Carlo with both clocks. No way is
+// packing fraction 0.50 by event-driven dynamics and by Monte Carlo with its clocks. No way is
 // right at the steps that are worth their time, so that each is measured at two and extrapolated to
-// none by a straight line: in the interval squared, in the step. Equal accuracy means a statistical
-// error of 1 % of what is extrapolated, the time being shared between the two as is cheapest.
-// Displacements know nothing of the way they came about, so one variance serves all.
+// none by a straight line: in the interval squared, in the step, or where the clock is that of
+// attempts in its square. Equal accuracy means a statistical error of 1 % of what is extrapolated,
+// the time being shared between the two as is cheapest. Displacements know nothing of the way they
+// came about, so one variance serves all.
 #include "bench.h"
 
 #include "dmc/clock.h"
@@ -19,9 +20,17 @@ static const RngKey KEY = {.seed = 1};
 static const double LAG = 1, ACCURACY = 0.01; // in d^2/D0
 static const double SETTLE_STEP = 0.055, WINDOW = 0.01;
 
-typedef enum Way { EVENT_DRIVEN, RESCALED, MATCHED, WAYS } Way;
-static const char *const WAY[WAYS] = {"edbd interval", "dmc VA step", "dmc VD step"};
-static const double STEP[WAYS][2] = {{0.02, 0.05}, {0.03, 0.06}, {0.03, 0.06}};
+// VA, VD after a whole cycle, VD per attempt.
+typedef enum Way { EVENT_DRIVEN, RESCALED, MATCHED, MATCHED_ATTEMPTS, WAYS } Way;
+static const char *const WAY[WAYS] = {"edbd interval", "dmc VA step", "dmc VD step",
+                                      "dmc per attempt step"};
+static const double STEP[WAYS][2] = {{0.02, 0.05}, {0.03, 0.06}, {0.03, 0.06}, {0.03, 0.06}};
+static const double POWER[WAYS] = {2, 1, 1, 2}; // of the step, that the line is straight in
+static const ClockSettings CLOCK[WAYS] = {
+    [RESCALED] = {.chain = {.stream = STREAM_TRIALS}, .kind = CLOCK_ACCEPTANCE},
+    [MATCHED] = {.chain = {.stream = STREAM_TRIALS}, .kind = CLOCK_MATCHING},
+    [MATCHED_ATTEMPTS] = {
+        .chain = {.stream = STREAM_TRIALS}, .kind = CLOCK_MATCHING, .span = MATCH_PER_ATTEMPT}};
 
 typedef struct Walk {
     double diffusion, error; // D_L/D0
@@ -34,10 +43,9 @@ static void stop_if(Status status) {
     exit(status);
 }
 
-static ChainClock *clock_of(State *state, ClockKind kind, double step) {
-    const ClockSettings settings = {.chain = {.stream = STREAM_TRIALS}, .kind = kind};
+static ChainClock *clock_of(State *state, Way way, double step) {
     ChainClock *clock = NULL;
-    stop_if(clock_create(&clock, &settings, state, KEY));
+    stop_if(clock_create(&clock, &CLOCK[way], state, KEY));
     clock_set_step(clock, 0, step);
     return clock;
 }
@@ -49,7 +57,7 @@ static State *settled(void) {
     State *state = NULL;
     PackingReport packing;
     stop_if(packing_create(&state, &system, KEY, NULL, &packing));
-    ChainClock *clock = clock_of(state, CLOCK_ACCEPTANCE, SETTLE_STEP);
+    ChainClock *clock = clock_of(state, RESCALED, SETTLE_STEP);
     stop_if(clock_run(clock, (int64_t)SETTLE_CYCLES * PARTICLES, NULL));
     clock_publish(clock);
     clock_free(clock);
@@ -99,7 +107,7 @@ static Mover mover_of(State *state, Way way, double step) {
         stop_if(engine_create(&mover.engine, &settings, state, KEY));
         return mover;
     }
-    mover.clock = clock_of(state, way == RESCALED ? CLOCK_ACCEPTANCE : CLOCK_MATCHING, step);
+    mover.clock = clock_of(state, way, step);
     stop_if(clock_run(mover.clock, (int64_t)CALIBRATION * PARTICLES, NULL));
     return mover;
 }
@@ -155,7 +163,7 @@ static double time_needed(Walk walks[WAYS][2]) {
 // sum w_k^2 v/t_k is given: the cost is v (sum |w_k| sqrt(c_k))^2 for that.
 static void report_extrapolated(Way way, const Walk walks[2], double time) {
     double x[2];
-    for (int k = 0; k < 2; k++) x[k] = way == EVENT_DRIVEN ? pow(STEP[way][k], 2) : STEP[way][k];
+    for (int k = 0; k < 2; k++) x[k] = pow(STEP[way][k], POWER[way]);
     const double weight[2] = {x[1] / (x[1] - x[0]), -x[0] / (x[1] - x[0])};
     const double diffusion = weight[0] * walks[0].diffusion + weight[1] * walks[1].diffusion;
     double roots = 0; // relative errors are those of the walks
