@@ -47,12 +47,19 @@ static int64_t period_for(const Settings *settings, const Clock *clock) {
     return looks_period(clock, ((const PressureSettings *)settings->bytes)->blocks);
 }
 
+// What measures it without collisions.
+static const char *other_way(const System *system) {
+    if (!shape_is_hard((ShapeKind)system->species[0].shape)) return "energy";
+    return system->dimension == 2 ? "pair_distribution" : "virtual_compression";
+}
+
 static Status check(const Settings *settings, const System *system, const Clock *clock) {
     (void)settings;
-    (void)system;
     if (clock->flies) return OK;
-    return status_fail(BAD_DATA, "pressure: Monte Carlo counts no collisions, from which it is "
-                                 "measured; virtual_compression gives it from configurations");
+    return status_fail(BAD_DATA,
+                       "pressure: Monte Carlo counts no collisions, from which it is measured; %s "
+                       "gives it from configurations",
+                       other_way(system));
 }
 
 static Status create(Observer **out, const Settings *settings, const State *state,
