@@ -51,6 +51,10 @@ static Status derive_from(Results *results, const ResultSeries *series, const Sy
     if (strcmp(observable, "pressure") == 0) {
         return derive_theory(results, series->stage, system);
     }
+    if (strcmp(observable, "self_scattering") == 0 ||
+        strcmp(observable, "collective_scattering_normalised") == 0) {
+        return derive_kohlrausch(results, series);
+    }
     if (strcmp(observable, "collective_scattering_ends") == 0) {
         return derive_normalised_scattering(results, series);
     }

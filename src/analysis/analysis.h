@@ -19,6 +19,8 @@
 //   compressibility_factor_compression, pressure_compression      of virtual_compression
 //   compressibility_factor_theory, pressure_theory                hard discs and spheres only
 //   collective_scattering_normalised, a series   of collective_scattering and its _ends
+//   OBSERVABLE_relaxation_time, OBSERVABLE_kohlrausch_amplitude, _time, _exponent, _window, series
+//                                        of self_scattering and collective_scattering_normalised
 //   non_gaussian_parameter, a series     of squared_displacement and quartic_displacement
 //   four_point_susceptibility, a series                           of overlap and overlap_square
 // With several species, diffusion is given for all particles and, with _NAME, for each species.

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Relaxation times and Kohlrausch's law from decays whose law is known.
+#include "analysis/analysis.h"
+#include "observe.h"
+
+#include "rng/rng.h"
+
+#include <stdio.h>
+
+enum { REPLICAS = 8, LAGS = 61, WAVES = 2 };
+
+typedef double Decay(double t, double scale);
+
+// A plateau of 0.7 that is reached early and left by Kohlrausch's law.
+static double glassy(double t, double scale) {
+    return 0.3 * exp(-t / 0.01) + 0.7 * exp(-pow(t / (50 * scale), 0.6));
+}
+
+static double exponential(double t, double scale) {
+    return exp(-t / scale);
+}
+
+static double frozen(double t, double scale) {
+    return 0.8 + 0.2 * exp(-t / (0.01 * scale));
+}
+
+// From 1e-3 to 1e3, every replica with a time scale of its own, `spread` about 1; the second wave
+// number relaxes four times as fast.
+static Results *decays(Decay *decay, double spread, double noise) {
+    static const double waves[WAVES] = {3, 6};
+    double times[LAGS], values[WAVES][LAGS];
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, REPLICAS), OK);
+    for (int k = 0; k < LAGS; k++) times[k] = 1e-3 * pow(10, 0.1 * k);
+    const ResultSeries shape = {
+        .stage = "quiescent",
+        .observable = "self_scattering",
+        .axes = 2,
+        .axis = {{.name = "wave_number", .unit = "1/d", .count = WAVES, .values = waves},
+                 {.name = "time", .unit = "d^2/D0", .count = LAGS, .values = times}}};
+    Rng rng = rng_open((RngKey){.seed = 3}, STREAM_PACKING, 0, 0);
+    for (size_t r = 0; r < REPLICAS; r++) {
+        const double scale = 1 + spread * rng_normal(&rng);
+        for (int k = 0; k < LAGS; k++) {
+            for (int q = 0; q < WAVES; q++) {
+                values[q][k] = decay(times[k] * (q == 0 ? 1 : 4), scale) + noise * rng_normal(&rng);
+            }
+        }
+        ck_assert_int_eq(results_put_series(results, &shape, r, &values[0][0]), OK);
+    }
+    const System system = system_of(2, 100, 0.5, 1);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    return results;
+}
+
+static Estimate found(const Results *results, const char *quantity, size_t wave) {
+    char name[RESULT_NAME];
+    snprintf(name, sizeof name, "self_scattering_%s", quantity);
+    return results_series_estimate(results, series_of(results, "quiescent", name), wave);
+}
+
+START_TEST(kohlrausch_law_is_found_behind_the_plateau) {
+    Results *results = decays(glassy, 0, 0);
+    for (size_t q = 0; q < WAVES; q++) {
+        const double faster = q == 0 ? 1 : 4;
+        ck_assert_double_eq_tol(found(results, "kohlrausch_amplitude", q).value, 0.7, 1e-3);
+        ck_assert_double_eq_tol(found(results, "kohlrausch_exponent", q).value, 0.6, 1e-3);
+        ck_assert_double_eq_tol(found(results, "kohlrausch_time", q).value * faster / 50, 1, 2e-3);
+        ck_assert_double_gt(found(results, "kohlrausch_window", q).value * faster, 0.03);
+        // Where 0.7 exp(-x^0.6) is 1/e of the first value, between two lags.
+        const double first = glassy(1e-3 * faster, 1), x = log(0.7 * exp(1) / first);
+        ck_assert_double_eq_tol(
+            found(results, "relaxation_time", q).value * faster / (50 * pow(x, 1 / 0.6)), 1, 2e-3);
+    }
+    results_free(results);
+}
+END_TEST
+
+START_TEST(a_free_particle_decays_exponentially) {
+    Results *results = decays(exponential, 0, 0);
+    ck_assert_double_eq_tol(found(results, "kohlrausch_exponent", 0).value, 1, 1e-6);
+    ck_assert_double_eq_tol(found(results, "kohlrausch_amplitude", 0).value, 1, 1e-6);
+    ck_assert_double_eq_tol(found(results, "kohlrausch_time", 1).value, 0.25, 1e-6);
+    results_free(results);
+}
+END_TEST
+
+// Replicas that differ by a tenth in their time: the error is that of their mean.
+START_TEST(errors_are_those_of_the_replicas) {
+    Results *results = decays(glassy, 0.1, 1e-3);
+    const Estimate time = found(results, "kohlrausch_time", 0);
+    ck_assert_double_eq_tol(time.value / 50, 1, 4 * 0.1 / sqrt(REPLICAS));
+    // The standard error of 8 values is itself known to a quarter.
+    ck_assert_double_eq_tol(time.error / (50 * 0.1 / sqrt(REPLICAS)), 1, 4 * 0.27);
+    ck_assert_double_gt(time.error, 0.2 * 50 * 0.1 / sqrt(REPLICAS));
+    const Estimate exponent = found(results, "kohlrausch_exponent", 0);
+    ck_assert_double_eq_tol(exponent.value, 0.6, fmax(4 * exponent.error, 0.02));
+    results_free(results);
+}
+END_TEST
+
+START_TEST(what_has_not_relaxed_has_no_time) {
+    Results *results = decays(frozen, 0, 0);
+    ck_assert(isnan(found(results, "relaxation_time", 0).value));
+    results_free(results);
+}
+END_TEST
+
+int main(void) {
+    Suite *suite = suite_create("kohlrausch");
+    TCase *c = tcase_create("kohlrausch");
+    tcase_add_test(c, kohlrausch_law_is_found_behind_the_plateau);
+    tcase_add_test(c, a_free_particle_decays_exponentially);
+    tcase_add_test(c, errors_are_those_of_the_replicas);
+    tcase_add_test(c, what_has_not_relaxed_has_no_time);
+    suite_add_tcase(suite, c);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed > 0;
+}
