@@ -9,8 +9,10 @@
 #include <string.h>
 
 // Skins in d, found by measurement: wide ones cost pairs, narrow ones rebuilding.
-static const double SKIN_DIFFUSIVE[2] = {0.50, 0.50}; // 2D, 3D, velocities drawn in every window
-static const double SKIN_BALLISTIC[2] = {0.80, 0.65}; // or kept for many
+static const double SKIN[2][2] = {
+    {0.80, 0.65}, // 2D, 3D, velocities kept for many windows
+    {0.50, 0.50}, // or drawn in every window
+};
 static const double SKIN_WINDOWS = 16;       // least skin, in thermal flights of one window
 static const double INNER_SKIN_WINDOWS = 48; // the inner skin, in the same,
 static const double INNER_SKIN_MOST = 0.3;   // where that is below this part of the outer
@@ -299,7 +301,7 @@ static double skin_of(const Engine *engine) {
     double shortest = engine->edge[0];
     for (int a = 0; a < engine->dimension; a++) shortest = fmin(shortest, engine->edge[a]);
     const bool diffusive = engine->settings.redraw && engine->settings.windows_per_step == 1;
-    const double skin = (diffusive ? SKIN_DIFFUSIVE : SKIN_BALLISTIC)[engine->dimension - 2];
+    const double skin = SKIN[diffusive][engine->dimension - 2];
     const double wanted = fmax(skin, SKIN_WINDOWS * engine->fastest * engine->settings.window);
     return fmin(wanted, shortest / 2 - engine->largest * engine->scale);
 }
