@@ -371,6 +371,32 @@ START_TEST(only_hard_discs_and_spheres_have_an_equation_of_state) {
 }
 END_TEST
 
+// Pressures that rise by 0.5 in the stage, in eleven blocks of which the middle one is in no half.
+START_TEST(a_stage_that_drifts_is_told) {
+    double times[11], values[11];
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 2), OK);
+    for (size_t r = 0; r < 2; r++) {
+        for (int k = 0; k < 11; k++) {
+            times[k] = k;
+            values[k] = 3 + 0.05 * k + (k == 5 ? 100 : 0) + (double)r;
+        }
+        const ResultSeries shape = {
+            .stage = "quiescent",
+            .observable = "pressure",
+            .unit = "kT/d^2",
+            .axes = 1,
+            .axis = {{.name = "time", .unit = "d^2/D0", .count = 11, .values = times}}};
+        ck_assert_int_eq(results_put_series(results, &shape, r, values), OK);
+    }
+    const System system = system_of(2, 100, 0.5, 1);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "pressure_drift"), 0.3, 1e-12);
+    ck_assert_double_eq_tol(error_of(results, "quiescent", "pressure_drift"), 0, 1e-12);
+    results_free(results);
+}
+END_TEST
+
 START_TEST(deriving_twice_changes_nothing) {
     const System system = system_of(2, 1000, 0.7, 1);
     Results *results = displacements(0.05, 0.1, 0.1, 0.02, "d^2/D0");
@@ -403,6 +429,7 @@ int main(void) {
     tcase_add_test(c, every_direction_has_its_long_time_diffusion);
     tcase_add_test(c, free_platelets_move_as_their_tensor_says);
     tcase_add_test(c, only_hard_discs_and_spheres_have_an_equation_of_state);
+    tcase_add_test(c, a_stage_that_drifts_is_told);
     tcase_add_test(c, deriving_twice_changes_nothing);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
