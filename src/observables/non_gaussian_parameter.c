@@ -3,8 +3,8 @@
 // analysis has the non-Gaussian parameter alpha_2 = dim <r^4>/((dim + 2) <r^2>^2) - 1 (Rahman,
 // Phys. Rev. 136, A405, 1964): a ratio of means, which is not the mean of the replicas' ratios.
 #include "base/memory.h"
-#include "observables/displacements.h"
 #include "observables/labels.h"
+#include "observables/motion.h"
 #include "observables/put.h"
 
 #include <stdio.h>
@@ -16,12 +16,8 @@ typedef struct MomentSettings {
 static const Option rows[] = {LAG_OPTIONS_OF(MomentSettings, lags, 10, 32),
                               WAITING_OPTION(MomentSettings, lags)};
 
-typedef struct Moments {
-    Observer observer;
-    Displacements moves;
-    double *squares; // [lanes], of the displacements
-    double *sums;    // [row of lags][species][second, fourth]
-} Moments;
+enum { MOMENTS = 2 };                                   // of each species: second, fourth
+static const uint64_t MOMENTS_TAG = 0x4d4f4d454e303031; // "MOMEN001"
 
 static const LagSettings *lag_settings(const Settings *settings) {
     return &((const MomentSettings *)settings->bytes)->lags;
@@ -32,83 +28,36 @@ static Status check(const Settings *settings, const System *system, const Clock 
     return lags_check("non_gaussian_parameter", lag_settings(settings), clock);
 }
 
-static size_t sum_count(const Moments *self) {
-    return lags_rows(&self->moves.history.lags) * self->moves.species_count * 2;
-}
-
-static Status allocate(Moments *self, const State *state, const Lags *lags) {
-    TRY(displacements_make(&self->moves, state, lags));
-    TRY(NEW_ARRAY(self->squares, self->moves.lanes));
-    return NEW_ARRAY(self->sums, sum_count(self));
-}
-
-static void discard(Observer *observer) {
-    Moments *self = (Moments *)observer;
-    displacements_clear(&self->moves);
-    memory_free(self->squares);
-    memory_free(self->sums);
-    memory_free(self);
+// The lanes that no particle has moved add nothing.
+static void add_row(Motion *self, double *sums) {
+    displacements_squares(&self->moves, self->scratch);
+    for (size_t s = 0; s < self->moves.species_count; s++) {
+        Lanes second = {0}, fourth = {0};
+        for (size_t i = self->moves.begin[s]; i < self->moves.begin[s + 1]; i += LANES) {
+            const Lanes square = *(const Lanes *)(self->scratch + i);
+            second += square;
+            fourth += square * square;
+        }
+        sums[MOMENTS * s] += lanes_sum(&second);
+        sums[MOMENTS * s + 1] += lanes_sum(&fourth);
+    }
 }
 
 static Status create(Observer **out, const Settings *settings, const State *state,
                      const Clock *clock) {
-    Moments *self = NULL;
+    const Lags lags = lags_chosen(lag_settings(settings), clock);
+    Motion *self = NULL;
     TRY(NEW(self));
     self->observer = (Observer){.kind = &observable_non_gaussian_parameter, .clock = *clock};
-    const Lags lags = lags_chosen(lag_settings(settings), clock);
-    const Status status = allocate(self, state, &lags);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return lags_next(&((const Moments *)observer)->moves.history.lags, &observer->clock, after);
-}
-
-// The lanes that no particle has moved add nothing.
-static void add_row(Moments *self, double *sums) {
-    displacements_squares(&self->moves, self->squares);
-    for (size_t s = 0; s < self->moves.species_count; s++) {
-        Lanes second = {0}, fourth = {0};
-        for (size_t i = self->moves.begin[s]; i < self->moves.begin[s + 1]; i += LANES) {
-            const Lanes square = *(const Lanes *)(self->squares + i);
-            second += square;
-            fourth += square * square;
-        }
-        sums[2 * s] += lanes_sum(&second);
-        sums[2 * s + 1] += lanes_sum(&fourth);
-    }
-}
-
-static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
-    (void)tally;
-    Moments *self = (Moments *)observer;
-    displacements_look(&self->moves, state);
-    for (size_t k = 0; k < self->moves.history.lags.count; k++) {
-        size_t row = 0;
-        if (displacements_ended(&self->moves, tick, k, &row))
-            add_row(self, self->sums + row * self->moves.species_count * 2);
-    }
-    displacements_keep(&self->moves, tick);
-    return OK;
-}
-
-static const uint64_t MOMENTS_TAG = 0x4d4f4d454e303031; // "MOMEN001"
-
-static void archive(Observer *observer, Archive *archive) {
-    Moments *self = (Moments *)observer;
-    archive_tag(archive, MOMENTS_TAG);
-    displacements_archive(&self->moves, archive);
-    archive_f64(archive, self->sums, sum_count(self));
+    self->tag = MOMENTS_TAG;
+    self->row_size = state->system.species_count * MOMENTS;
+    self->add_row = add_row;
+    return motion_begin(out, self, state, &lags);
 }
 
 // values[species][row]; the last species all of them, if there are several. NaN where nothing was
 // seen.
-static void fill(const Moments *self, size_t labels, size_t moment, double *values) {
+static void fill(const Motion *self, size_t labels, size_t moment, double *values) {
     const size_t species_count = self->moves.species_count;
     const size_t row_count = lags_rows(&self->moves.history.lags);
     for (size_t s = 0; s < labels; s++) {
@@ -117,19 +66,19 @@ static void fill(const Moments *self, size_t labels, size_t moment, double *valu
         for (size_t row = 0; row < row_count; row++) {
             double sum = 0;
             for (size_t i = first; i < last; i++)
-                sum += self->sums[(row * species_count + i) * 2 + moment];
+                sum += self->sums[(row * species_count + i) * MOMENTS + moment];
             *values++ = sum / displacements_samples(&self->moves, row, first, last);
         }
     }
 }
 
-static Status put(const Moments *self, const Labels *species, double *values, double *times,
+static Status put(const Motion *self, const Labels *species, double *values, double *times,
                   Results *results, size_t replica) {
     static const char *const names[] = {"squared_displacement", "quartic_displacement"};
     static const char *const units[] = {"d^2", "d^4"};
     static const char *const abouts[] = {"<|r(t) - r(0)|^2> over particles and time origins.",
                                          "<|r(t) - r(0)|^4> over particles and time origins."};
-    for (size_t moment = 0; moment < 2; moment++) {
+    for (size_t moment = 0; moment < MOMENTS; moment++) {
         ResultSeries shape = {.about = "", .axes = 1, .axis = {{.name = "species", .unit = ""}}};
         snprintf(shape.unit, sizeof shape.unit, "%s", units[moment]);
         snprintf(shape.about, sizeof shape.about, "%s", abouts[moment]);
@@ -145,7 +94,7 @@ static Status put(const Moments *self, const Labels *species, double *values, do
 
 static Status write(const Observer *observer, const State *state, Results *results,
                     size_t replica) {
-    const Moments *self = (const Moments *)observer;
+    const Motion *self = (const Motion *)observer;
     const Lags *lags = &self->moves.history.lags;
     Labels species;
     labels_of_species(&species, &state->system);
@@ -160,9 +109,7 @@ static Status write(const Observer *observer, const State *state, Results *resul
 
 static size_t memory(const Settings *settings, const System *system, const Clock *clock) {
     const Lags lags = lags_chosen(lag_settings(settings), clock);
-    return sizeof(Moments) + displacements_memory(system, &lags) +
-           ((size_t)system->particles + lags_rows(&lags) * system->species_count * 2) *
-               sizeof(double);
+    return sizeof(Motion) + motion_memory(system, &lags, system->species_count * MOMENTS);
 }
 
 const ObservableKind observable_non_gaussian_parameter = {
@@ -173,10 +120,10 @@ const ObservableKind observable_non_gaussian_parameter = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(MomentSettings)},
     .check = check,
     .create = create,
-    .next = next,
-    .see = see,
-    .archive = archive,
+    .next = motion_next,
+    .see = motion_see,
+    .archive = motion_archive,
     .write = write,
-    .free = discard,
+    .free = motion_free,
     .memory = memory,
 };

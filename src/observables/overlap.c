@@ -5,8 +5,8 @@
 // 7372, 2003; the self part), with the mean over origins and replicas, at fixed numbers of
 // particles.
 #include "base/memory.h"
-#include "observables/displacements.h"
 #include "observables/labels.h"
+#include "observables/motion.h"
 #include "observables/put.h"
 
 #include <stdio.h>
@@ -29,13 +29,13 @@ static const Option rows[] = {
     WAITING_OPTION(OverlapSettings, lags),
 };
 
+enum { POWERS = 2 };
+static const uint64_t OVERLAP_TAG = 0x4f5645524c303031; // "OVERL001"
+
 typedef struct Overlap {
-    Observer observer;
-    Displacements moves;
+    Motion motion; // rows are [label][Q, Q^2]
     double distance;
-    size_t labels;   // species, and all of them if there are several
-    double *squares; // [lanes], of the displacements
-    double *sums;    // [row of lags][label][Q, Q^2]
+    size_t labels; // species, and all of them if there are several
 } Overlap;
 
 static const OverlapSettings *settings_in(const Settings *settings) {
@@ -51,59 +51,20 @@ static size_t labels_of(size_t species_count) {
     return species_count + (species_count > 1);
 }
 
-static size_t sum_count(const Overlap *self) {
-    return lags_rows(&self->moves.history.lags) * self->labels * 2;
-}
-
-static Status allocate(Overlap *self, const State *state, const Lags *lags) {
-    TRY(displacements_make(&self->moves, state, lags));
-    TRY(NEW_ARRAY(self->squares, self->moves.lanes));
-    return NEW_ARRAY(self->sums, sum_count(self));
-}
-
-static void discard(Observer *observer) {
-    Overlap *self = (Overlap *)observer;
-    displacements_clear(&self->moves);
-    memory_free(self->squares);
-    memory_free(self->sums);
-    memory_free(self);
-}
-
-static Status create(Observer **out, const Settings *settings_, const State *state,
-                     const Clock *clock) {
-    const OverlapSettings *settings = settings_in(settings_);
-    Overlap *self = NULL;
-    TRY(NEW(self));
-    self->observer = (Observer){.kind = &observable_overlap, .clock = *clock};
-    self->distance = settings->distance;
-    self->labels = labels_of(state->system.species_count);
-    const Lags lags = lags_chosen(&settings->lags, clock);
-    const Status status = allocate(self, state, &lags);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return lags_next(&((const Overlap *)observer)->moves.history.lags, &observer->clock, after);
-}
-
 static void add_overlap(double *sums, double inside, double particles) {
     const double overlap = inside / particles;
     sums[0] += overlap;
     sums[1] += overlap * overlap;
 }
 
-static void add_row(Overlap *self, double *sums) {
-    const Displacements *moves = &self->moves;
+static void add_row(Motion *motion, double *sums) {
+    const Overlap *self = (const Overlap *)motion;
+    const Displacements *moves = &motion->moves;
     const double within = self->distance * self->distance;
     double all_inside = 0, all = 0;
-    displacements_squares(moves, self->squares);
-    for (size_t s = 0; s < moves->species_count; s++, sums += 2) {
-        const double *squares = self->squares + moves->begin[s];
+    displacements_squares(moves, motion->scratch);
+    for (size_t s = 0; s < moves->species_count; s++, sums += POWERS) {
+        const double *squares = motion->scratch + moves->begin[s];
         size_t inside = 0;
         for (size_t i = 0; i < moves->population[s]; i++) inside += squares[i] < within;
         add_overlap(sums, (double)inside, (double)moves->population[s]);
@@ -113,35 +74,28 @@ static void add_row(Overlap *self, double *sums) {
     if (self->labels > moves->species_count) add_overlap(sums, all_inside, all);
 }
 
-static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
-    (void)tally;
-    Overlap *self = (Overlap *)observer;
-    displacements_look(&self->moves, state);
-    for (size_t k = 0; k < self->moves.history.lags.count; k++) {
-        size_t row = 0;
-        if (displacements_ended(&self->moves, tick, k, &row))
-            add_row(self, self->sums + row * self->labels * 2);
-    }
-    displacements_keep(&self->moves, tick);
-    return OK;
-}
-
-static const uint64_t OVERLAP_TAG = 0x4f5645524c303031; // "OVERL001"
-
-static void archive(Observer *observer, Archive *archive) {
-    Overlap *self = (Overlap *)observer;
-    archive_tag(archive, OVERLAP_TAG);
-    displacements_archive(&self->moves, archive);
-    archive_f64(archive, self->sums, sum_count(self));
+static Status create(Observer **out, const Settings *settings_, const State *state,
+                     const Clock *clock) {
+    const OverlapSettings *settings = settings_in(settings_);
+    const Lags lags = lags_chosen(&settings->lags, clock);
+    Overlap *self = NULL;
+    TRY(NEW(self));
+    self->distance = settings->distance;
+    self->labels = labels_of(state->system.species_count);
+    self->motion = (Motion){.observer = {.kind = &observable_overlap, .clock = *clock},
+                            .tag = OVERLAP_TAG,
+                            .row_size = self->labels * POWERS,
+                            .add_row = add_row};
+    return motion_begin(out, &self->motion, state, &lags);
 }
 
 // values[label][row]; NaN where nothing was seen.
 static void fill(const Overlap *self, size_t power, double *values) {
-    const size_t row_count = lags_rows(&self->moves.history.lags);
+    const size_t row_count = lags_rows(&self->motion.moves.history.lags);
     for (size_t l = 0; l < self->labels; l++) {
         for (size_t row = 0; row < row_count; row++) {
-            *values++ = self->sums[(row * self->labels + l) * 2 + power] /
-                        (double)self->moves.history.seen[row];
+            *values++ = self->motion.sums[(row * self->labels + l) * POWERS + power] /
+                        (double)self->motion.moves.history.seen[row];
         }
     }
 }
@@ -152,7 +106,7 @@ static Status put(const Overlap *self, const Labels *species, double *values, do
     static const char *const abouts[] = {
         "Fraction of the particles that are near where they were: Q(t), mean over time origins.",
         "Mean of Q(t)^2 over time origins."};
-    for (size_t power = 0; power < 2; power++) {
+    for (size_t power = 0; power < POWERS; power++) {
         ResultSeries shape = {.unit = "",
                               .axes = 1,
                               .axis = {{.name = "species",
@@ -160,10 +114,11 @@ static Status put(const Overlap *self, const Labels *species, double *values, do
                                         .count = species->count,
                                         .labels = species->names}}};
         snprintf(shape.about, sizeof shape.about, "%s", abouts[power]);
-        shape.axes += lags_axes(&self->moves.history.lags, &self->observer.clock, times,
-                                shape.axis + shape.axes);
+        shape.axes += lags_axes(&self->motion.moves.history.lags, &self->motion.observer.clock,
+                                times, shape.axis + shape.axes);
         fill(self, power, values);
-        TRY(observer_put_series(&self->observer, names[power], &shape, results, replica, values));
+        TRY(observer_put_series(&self->motion.observer, names[power], &shape, results, replica,
+                                values));
     }
     return OK;
 }
@@ -171,7 +126,7 @@ static Status put(const Overlap *self, const Labels *species, double *values, do
 static Status write(const Observer *observer, const State *state, Results *results,
                     size_t replica) {
     const Overlap *self = (const Overlap *)observer;
-    const Lags *lags = &self->moves.history.lags;
+    const Lags *lags = &self->motion.moves.history.lags;
     Labels species;
     labels_of_species(&species, &state->system);
     double *values = NULL, *times = NULL;
@@ -185,9 +140,8 @@ static Status write(const Observer *observer, const State *state, Results *resul
 
 static size_t memory(const Settings *settings, const System *system, const Clock *clock) {
     const Lags lags = lags_chosen(&settings_in(settings)->lags, clock);
-    return sizeof(Overlap) + displacements_memory(system, &lags) +
-           ((size_t)system->particles + lags_rows(&lags) * labels_of(system->species_count) * 2) *
-               sizeof(double);
+    return sizeof(Overlap) +
+           motion_memory(system, &lags, labels_of(system->species_count) * POWERS);
 }
 
 const ObservableKind observable_overlap = {
@@ -197,10 +151,10 @@ const ObservableKind observable_overlap = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(OverlapSettings)},
     .check = check,
     .create = create,
-    .next = next,
-    .see = see,
-    .archive = archive,
+    .next = motion_next,
+    .see = motion_see,
+    .archive = motion_archive,
     .write = write,
-    .free = discard,
+    .free = motion_free,
     .memory = memory,
 };

@@ -6,8 +6,8 @@
 // little is lost where F is near 1.
 #include "base/constants.h"
 #include "base/memory.h"
-#include "observables/displacements.h"
 #include "observables/labels.h"
+#include "observables/motion.h"
 #include "observables/put.h"
 #include "observables/versines.h"
 #include "observables/wave_vectors.h"
@@ -48,15 +48,14 @@ static const Option rows[] = {
     WAITING_OPTION(SelfSettings, lags),
 };
 
+static const uint64_t SELF_TAG = 0x53454c4653303031; // "SELFS001"
+
 typedef struct SelfScattering {
-    Observer observer;
-    Displacements moves;
+    Motion motion; // rows are [species][direction][wave number], of 1 - cos
     OptionReals wave_numbers;
     size_t direction_count;
     Direction direction[DIRECTIONS_MOST];
     const char *label[DIRECTIONS_MOST + 1]; // of the directions, and the mean
-    double *projected;                      // [lanes], displacements along a direction
-    double *sums; // [row of lags][species][direction][wave number], of 1 - cos
 } SelfScattering;
 
 static const SelfSettings *settings_in(const Settings *settings) {
@@ -87,64 +86,20 @@ static void choose_directions(SelfScattering *self, uint64_t wanted, int64_t dim
     self->label[self->direction_count] = "mean";
 }
 
-// Sums of one row.
-static size_t row_size(const SelfScattering *self) {
-    return self->moves.species_count * self->direction_count * (size_t)self->wave_numbers.count;
-}
-
-static size_t sum_count(const SelfScattering *self) {
-    return lags_rows(&self->moves.history.lags) * row_size(self);
-}
-
-static Status allocate(SelfScattering *self, const State *state, const Lags *lags) {
-    TRY(displacements_make(&self->moves, state, lags));
-    TRY(NEW_ARRAY(self->projected, self->moves.lanes));
-    return NEW_ARRAY(self->sums, sum_count(self));
-}
-
-static void discard(Observer *observer) {
-    SelfScattering *self = (SelfScattering *)observer;
-    displacements_clear(&self->moves);
-    memory_free(self->projected);
-    memory_free(self->sums);
-    memory_free(self);
-}
-
-static Status create(Observer **out, const Settings *settings_, const State *state,
-                     const Clock *clock) {
-    const SelfSettings *settings = settings_in(settings_);
-    SelfScattering *self = NULL;
-    TRY(NEW(self));
-    self->observer = (Observer){.kind = &observable_self_scattering, .clock = *clock};
-    self->wave_numbers = wave_numbers_chosen(&settings->wave_numbers, &state->system);
-    choose_directions(self, settings->directions, state->system.dimension);
-    const Lags lags = lags_chosen(&settings->lags, clock);
-    const Status status = allocate(self, state, &lags);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    const SelfScattering *self = (const SelfScattering *)observer;
-    return lags_next(&self->moves.history.lags, &observer->clock, after);
-}
-
 static const double *project(const SelfScattering *self, const Direction *direction) {
-    const size_t lanes = self->moves.lanes;
-    const double *first = self->moves.moved + (size_t)direction->first * lanes;
-    const double *second = self->moves.moved + (size_t)direction->second * lanes;
+    const size_t lanes = self->motion.moves.lanes;
+    const double *first = self->motion.moves.moved + (size_t)direction->first * lanes;
+    const double *second = self->motion.moves.moved + (size_t)direction->second * lanes;
     if (direction->sign == 0) return first;
     const double half = sqrt(0.5), share = direction->sign * half;
-    for (size_t i = 0; i < lanes; i++) self->projected[i] = half * first[i] + share * second[i];
-    return self->projected;
+    for (size_t i = 0; i < lanes; i++)
+        self->motion.scratch[i] = half * first[i] + share * second[i];
+    return self->motion.scratch;
 }
 
-static void add_row(SelfScattering *self, double *sums) {
-    const Displacements *moves = &self->moves;
+static void add_row(Motion *motion, double *sums) {
+    const SelfScattering *self = (const SelfScattering *)motion;
+    const Displacements *moves = &motion->moves;
     const size_t wave_numbers = (size_t)self->wave_numbers.count;
     for (size_t d = 0; d < self->direction_count; d++) {
         const double *projected = project(self, &self->direction[d]);
@@ -159,43 +114,37 @@ static void add_row(SelfScattering *self, double *sums) {
     }
 }
 
-static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
-    (void)tally;
-    SelfScattering *self = (SelfScattering *)observer;
-    displacements_look(&self->moves, state);
-    for (size_t k = 0; k < self->moves.history.lags.count; k++) {
-        size_t row = 0;
-        if (displacements_ended(&self->moves, tick, k, &row))
-            add_row(self, self->sums + row * row_size(self));
-    }
-    displacements_keep(&self->moves, tick);
-    return OK;
-}
-
-static const uint64_t SELF_TAG = 0x53454c4653303031; // "SELFS001"
-
-static void archive(Observer *observer, Archive *archive) {
-    SelfScattering *self = (SelfScattering *)observer;
-    archive_tag(archive, SELF_TAG);
-    displacements_archive(&self->moves, archive);
-    archive_f64(archive, self->sums, sum_count(self));
+static Status create(Observer **out, const Settings *settings_, const State *state,
+                     const Clock *clock) {
+    const SelfSettings *settings = settings_in(settings_);
+    const Lags lags = lags_chosen(&settings->lags, clock);
+    SelfScattering *self = NULL;
+    TRY(NEW(self));
+    self->wave_numbers = wave_numbers_chosen(&settings->wave_numbers, &state->system);
+    choose_directions(self, settings->directions, state->system.dimension);
+    self->motion = (Motion){.observer = {.kind = &observable_self_scattering, .clock = *clock},
+                            .tag = SELF_TAG,
+                            .row_size = state->system.species_count * self->direction_count *
+                                        (size_t)self->wave_numbers.count,
+                            .add_row = add_row};
+    return motion_begin(out, &self->motion, state, &lags);
 }
 
 // Of species [first, last) together; NaN where nothing was seen.
 static double function_at(const SelfScattering *self, size_t row, size_t first, size_t last,
                           size_t direction, size_t q) {
-    const double *sums = self->sums + row * row_size(self);
+    const double *sums = self->motion.sums + row * self->motion.row_size;
     const size_t wave_numbers = (size_t)self->wave_numbers.count;
     double lost = 0;
     for (size_t s = first; s < last; s++) {
         lost += sums[(s * self->direction_count + direction) * wave_numbers + q];
     }
-    return 1 - lost / displacements_samples(&self->moves, row, first, last);
+    return 1 - lost / displacements_samples(&self->motion.moves, row, first, last);
 }
 
 // values[direction][wave number][row] of species [first, last), the last direction the mean.
 static void fill_species(const SelfScattering *self, size_t first, size_t last, double *values) {
-    const size_t row_count = lags_rows(&self->moves.history.lags);
+    const size_t row_count = lags_rows(&self->motion.moves.history.lags);
     const size_t wave_numbers = (size_t)self->wave_numbers.count;
     double *mean = values + self->direction_count * wave_numbers * row_count;
     for (size_t q = 0; q < wave_numbers; q++) {
@@ -213,12 +162,12 @@ static void fill_species(const SelfScattering *self, size_t first, size_t last, 
 
 static size_t species_size(const SelfScattering *self) {
     return (self->direction_count + 1) * (size_t)self->wave_numbers.count *
-           lags_rows(&self->moves.history.lags);
+           lags_rows(&self->motion.moves.history.lags);
 }
 
 static Status put(const SelfScattering *self, const Labels *species, double *values, double *times,
                   Results *results, size_t replica) {
-    const size_t species_count = self->moves.species_count;
+    const size_t species_count = self->motion.moves.species_count;
     for (size_t s = 0; s < species->count; s++) {
         const bool one = s < species_count;
         fill_species(self, one ? s : 0, one ? s + 1 : species_count,
@@ -238,9 +187,9 @@ static Status put(const SelfScattering *self, const Labels *species, double *val
                   .unit = "1/d",
                   .count = (size_t)self->wave_numbers.count,
                   .values = self->wave_numbers.values}}};
-    shape.axes +=
-        lags_axes(&self->moves.history.lags, &self->observer.clock, times, shape.axis + shape.axes);
-    return observer_put_series(&self->observer, "self_scattering", &shape, results, replica,
+    shape.axes += lags_axes(&self->motion.moves.history.lags, &self->motion.observer.clock, times,
+                            shape.axis + shape.axes);
+    return observer_put_series(&self->motion.observer, "self_scattering", &shape, results, replica,
                                values);
 }
 
@@ -251,7 +200,7 @@ static Status write(const Observer *observer, const State *state, Results *resul
     labels_of_species(&species, &state->system);
     double *values = NULL, *times = NULL;
     Status status = NEW_ARRAY(values, species.count * species_size(self));
-    if (status == OK) status = NEW_ARRAY(times, lags_axis_values(&self->moves.history.lags));
+    if (status == OK) status = NEW_ARRAY(times, lags_axis_values(&self->motion.moves.history.lags));
     if (status == OK) status = put(self, &species, values, times, results, replica);
     memory_free(values);
     memory_free(times);
@@ -263,10 +212,9 @@ static size_t memory(const Settings *settings_, const System *system, const Cloc
     const Lags lags = lags_chosen(&settings->lags, clock);
     const OptionReals wave_numbers = wave_numbers_chosen(&settings->wave_numbers, system);
     const size_t directions = system->dimension == 2 ? 4 : DIRECTIONS_MOST;
-    const size_t sums =
-        lags_rows(&lags) * system->species_count * directions * (size_t)wave_numbers.count;
-    return sizeof(SelfScattering) + displacements_memory(system, &lags) +
-           ((size_t)system->particles + sums) * sizeof(double);
+    return sizeof(SelfScattering) +
+           motion_memory(system, &lags,
+                         system->species_count * directions * (size_t)wave_numbers.count);
 }
 
 const ObservableKind observable_self_scattering = {
@@ -276,10 +224,10 @@ const ObservableKind observable_self_scattering = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(SelfSettings)},
     .check = check,
     .create = create,
-    .next = next,
-    .see = see,
-    .archive = archive,
+    .next = motion_next,
+    .see = motion_see,
+    .archive = motion_archive,
     .write = write,
-    .free = discard,
+    .free = motion_free,
     .memory = memory,
 };

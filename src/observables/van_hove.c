@@ -4,8 +4,8 @@
 // space is 1, less what moved beyond the last distance.
 #include "base/constants.h"
 #include "base/memory.h"
-#include "observables/displacements.h"
 #include "observables/labels.h"
+#include "observables/motion.h"
 #include "observables/put.h"
 
 #include <math.h>
@@ -39,13 +39,12 @@ static const Option rows[] = {
     WAITING_OPTION(VanHoveSettings, lags),
 };
 
+static const uint64_t VAN_HOVE_TAG = 0x56414e484f303031; // "VANHO001"
+
 typedef struct VanHove {
-    Observer observer;
-    Displacements moves;
+    Motion motion; // rows are [species][bin], of counts
     double spacing;
     size_t bins;
-    double *squares; // [lanes], of the displacements
-    double *counts;  // [row of lags][species][bin]
 } VanHove;
 
 static const VanHoveSettings *settings_in(const Settings *settings) {
@@ -68,55 +67,12 @@ static Status check(const Settings *settings_, const System *system, const Clock
     return lags_check("van_hove", &settings->lags, clock);
 }
 
-static size_t row_size(const VanHove *self) {
-    return self->moves.species_count * self->bins;
-}
-
-static size_t count_size(const VanHove *self) {
-    return lags_rows(&self->moves.history.lags) * row_size(self);
-}
-
-static Status allocate(VanHove *self, const State *state, const Lags *lags) {
-    TRY(displacements_make(&self->moves, state, lags));
-    TRY(NEW_ARRAY(self->squares, self->moves.lanes));
-    return NEW_ARRAY(self->counts, count_size(self));
-}
-
-static void discard(Observer *observer) {
-    VanHove *self = (VanHove *)observer;
-    displacements_clear(&self->moves);
-    memory_free(self->squares);
-    memory_free(self->counts);
-    memory_free(self);
-}
-
-static Status create(Observer **out, const Settings *settings_, const State *state,
-                     const Clock *clock) {
-    const VanHoveSettings *settings = settings_in(settings_);
-    VanHove *self = NULL;
-    TRY(NEW(self));
-    self->observer = (Observer){.kind = &observable_van_hove, .clock = *clock};
-    self->spacing = settings->spacing;
-    self->bins = bins_of(settings);
-    const Lags lags = lags_chosen(&settings->lags, clock);
-    const Status status = allocate(self, state, &lags);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return lags_next(&((const VanHove *)observer)->moves.history.lags, &observer->clock, after);
-}
-
-static void add_row(VanHove *self, double *counts) {
-    const Displacements *moves = &self->moves;
-    displacements_squares(moves, self->squares);
+static void add_row(Motion *motion, double *counts) {
+    const VanHove *self = (const VanHove *)motion;
+    const Displacements *moves = &motion->moves;
+    displacements_squares(moves, motion->scratch);
     for (size_t s = 0; s < moves->species_count; s++, counts += self->bins) {
-        const double *squares = self->squares + moves->begin[s];
+        const double *squares = motion->scratch + moves->begin[s];
         for (size_t i = 0; i < moves->population[s]; i++) {
             const double bin = sqrt(squares[i]) / self->spacing;
             if (bin < (double)self->bins) counts[(size_t)bin]++;
@@ -124,45 +80,38 @@ static void add_row(VanHove *self, double *counts) {
     }
 }
 
-static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
-    (void)tally;
-    VanHove *self = (VanHove *)observer;
-    displacements_look(&self->moves, state);
-    for (size_t k = 0; k < self->moves.history.lags.count; k++) {
-        size_t row = 0;
-        if (displacements_ended(&self->moves, tick, k, &row))
-            add_row(self, self->counts + row * row_size(self));
-    }
-    displacements_keep(&self->moves, tick);
-    return OK;
-}
-
-static const uint64_t VAN_HOVE_TAG = 0x56414e484f303031; // "VANHO001"
-
-static void archive(Observer *observer, Archive *archive) {
-    VanHove *self = (VanHove *)observer;
-    archive_tag(archive, VAN_HOVE_TAG);
-    displacements_archive(&self->moves, archive);
-    archive_f64(archive, self->counts, count_size(self));
+static Status create(Observer **out, const Settings *settings_, const State *state,
+                     const Clock *clock) {
+    const VanHoveSettings *settings = settings_in(settings_);
+    const Lags lags = lags_chosen(&settings->lags, clock);
+    VanHove *self = NULL;
+    TRY(NEW(self));
+    self->spacing = settings->spacing;
+    self->bins = bins_of(settings);
+    self->motion = (Motion){.observer = {.kind = &observable_van_hove, .clock = *clock},
+                            .tag = VAN_HOVE_TAG,
+                            .row_size = state->system.species_count * self->bins,
+                            .add_row = add_row};
+    return motion_begin(out, &self->motion, state, &lags);
 }
 
 // Of the ring or shell that a bin is.
 static double bin_volume(const VanHove *self, size_t bin) {
     const double inner = (double)bin * self->spacing, outer = inner + self->spacing;
-    if (self->moves.dimension == 2) return PI * (outer * outer - inner * inner);
+    if (self->motion.moves.dimension == 2) return PI * (outer * outer - inner * inner);
     return 4 * PI / 3 * (outer * outer * outer - inner * inner * inner);
 }
 
 // values[species][row][bin]; the last species all of them, if there are several.
 static void fill(const VanHove *self, size_t labels, double *values) {
-    const size_t species_count = self->moves.species_count;
-    const size_t row_count = lags_rows(&self->moves.history.lags);
+    const size_t species_count = self->motion.moves.species_count;
+    const size_t row_count = lags_rows(&self->motion.moves.history.lags);
     for (size_t s = 0; s < labels; s++) {
         const size_t first = s < species_count ? s : 0;
         const size_t last = s < species_count ? s + 1 : species_count;
         for (size_t row = 0; row < row_count; row++) {
-            const double samples = displacements_samples(&self->moves, row, first, last);
-            const double *counts = self->counts + row * row_size(self);
+            const double samples = displacements_samples(&self->motion.moves, row, first, last);
+            const double *counts = self->motion.sums + row * self->motion.row_size;
             for (size_t bin = 0; bin < self->bins; bin++) {
                 double count = 0;
                 for (size_t i = first; i < last; i++) count += counts[i * self->bins + bin];
@@ -182,19 +131,20 @@ static Status put(const VanHove *self, const Labels *species, double *values, do
         .axes = 1,
         .axis = {
             {.name = "species", .unit = "", .count = species->count, .labels = species->names}}};
-    snprintf(shape.unit, sizeof shape.unit, "d^-%d", self->moves.dimension);
-    shape.axes +=
-        lags_axes(&self->moves.history.lags, &self->observer.clock, times, shape.axis + shape.axes);
+    snprintf(shape.unit, sizeof shape.unit, "d^-%d", self->motion.moves.dimension);
+    shape.axes += lags_axes(&self->motion.moves.history.lags, &self->motion.observer.clock, times,
+                            shape.axis + shape.axes);
     shape.axis[shape.axes++] =
         (ResultAxis){.name = "distance", .unit = "d", .count = self->bins, .values = distances};
     fill(self, species->count, values);
-    return observer_put_series(&self->observer, "van_hove", &shape, results, replica, values);
+    return observer_put_series(&self->motion.observer, "van_hove", &shape, results, replica,
+                               values);
 }
 
 static Status write(const Observer *observer, const State *state, Results *results,
                     size_t replica) {
     const VanHove *self = (const VanHove *)observer;
-    const Lags *lags = &self->moves.history.lags;
+    const Lags *lags = &self->motion.moves.history.lags;
     Labels species;
     labels_of_species(&species, &state->system);
     double *values = NULL, *times = NULL, *distances = NULL;
@@ -211,10 +161,8 @@ static Status write(const Observer *observer, const State *state, Results *resul
 static size_t memory(const Settings *settings_, const System *system, const Clock *clock) {
     const VanHoveSettings *settings = settings_in(settings_);
     const Lags lags = lags_chosen(&settings->lags, clock);
-    return sizeof(VanHove) + displacements_memory(system, &lags) +
-           ((size_t)system->particles +
-            lags_rows(&lags) * system->species_count * bins_of(settings)) *
-               sizeof(double);
+    return sizeof(VanHove) +
+           motion_memory(system, &lags, system->species_count * bins_of(settings));
 }
 
 const ObservableKind observable_van_hove = {
@@ -224,10 +172,10 @@ const ObservableKind observable_van_hove = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(VanHoveSettings)},
     .check = check,
     .create = create,
-    .next = next,
-    .see = see,
-    .archive = archive,
+    .next = motion_next,
+    .see = motion_see,
+    .archive = motion_archive,
     .write = write,
-    .free = discard,
+    .free = motion_free,
     .memory = memory,
 };
