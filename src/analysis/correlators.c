@@ -42,10 +42,8 @@ static void jackknife(const Results *results, const Element *first, const Elemen
         double *value = values + r * stride;
         *value = NAN;
         if (!isfinite(a) || !isfinite(b)) continue;
-        *value = of_all;
-        if (n < 2) continue;
-        const double without = function((sums[0] - a) / (n - 1), (sums[1] - b) / (n - 1), constant);
-        *value = n * of_all - (n - 1) * without;
+        *value = pseudo_value((size_t)n, of_all,
+                              function((sums[0] - a) / (n - 1), (sums[1] - b) / (n - 1), constant));
     }
 }
 

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parts of analysis_derive, one for each kind of series.
+// The parts of analysis_derive, one for each kind of series, and what they share.
 #pragma once
 
 #include "results/results.h"
 #include "state/system.h"
+
+// The jackknife's pseudo-value of a replica (Efron, SIAM monograph 38, 1982), from a number found
+// with all `replicas` and without this one; of a single replica, the number itself.
+static inline double pseudo_value(size_t replicas, double all, double without) {
+    return replicas < 2 ? all : (double)replicas * all - (double)(replicas - 1) * without;
+}
 
 Status derive_diffusion(Results *results, const ResultSeries *displacement);
 Status derive_directional_diffusion(Results *results, const ResultSeries *displacement);

@@ -183,19 +183,15 @@ static void quantities(const Row *row, double out[QUANTITIES]) {
 static void derive_row(Row *row, double *values, size_t index, size_t rows) {
     double all[QUANTITIES], rest[QUANTITIES];
     const size_t replicas = row->results->replicas;
-    const double n = (double)replicas;
     mean_without(row, NOBODY);
     scan(row);
     choose_window(row);
     quantities(row, all);
     for (size_t r = 0; r < replicas; r++) {
-        memcpy(rest, all, sizeof rest);
-        if (replicas > 1) {
-            mean_without(row, (int64_t)r);
-            quantities(row, rest);
-        }
+        mean_without(row, (int64_t)r);
+        quantities(row, rest);
         for (size_t q = 0; q < QUANTITIES; q++) {
-            values[(r * QUANTITIES + q) * rows + index] = n * all[q] - (n - 1) * rest[q];
+            values[(r * QUANTITIES + q) * rows + index] = pseudo_value(replicas, all[q], rest[q]);
         }
     }
 }

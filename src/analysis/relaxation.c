@@ -71,9 +71,8 @@ static Status relaxation_times(const Decay *decay, double *times) {
     if (status == OK) {
         const double all = -1 / slope_without(decay, NOBODY, logarithms, weights);
         for (size_t r = 0; r < replicas; r++) {
-            const double rest =
-                replicas < 2 ? all : -1 / slope_without(decay, (int64_t)r, logarithms, weights);
-            times[r] = (double)replicas * all - (double)(replicas - 1) * rest;
+            times[r] = pseudo_value(replicas, all,
+                                    -1 / slope_without(decay, (int64_t)r, logarithms, weights));
         }
     }
     memory_free(logarithms);

@@ -3,6 +3,7 @@
 #include "campaign/campaign.h"
 
 #include "base/memory.h"
+#include "base/seconds.h"
 #include "base/text.h"
 #include "campaign/combine.h"
 #include "report/report.h"
@@ -13,7 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { SENTENCE_SIZE = 1024 };
 
@@ -43,12 +43,6 @@ struct Campaign {
     char note[SENTENCE_SIZE];
 };
 
-static double monotonic_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static Status weigh_points(Campaign *campaign) {
     for (size_t p = 0; p < campaign->count; p++) {
         Point *point = &campaign->point[p];
@@ -77,7 +71,7 @@ static Status open_store(Campaign *campaign) {
 
 static Status begin(Campaign *campaign) {
     campaign->count = config_point_count(campaign->points);
-    campaign->start = monotonic_seconds();
+    campaign->start = seconds_now();
     TRY(NEW_ARRAY(campaign->point, campaign->count));
     TRY(weigh_points(campaign));
     TRY(ensemble_slots_create(&campaign->slots, campaign->wishes.threads));
@@ -245,7 +239,7 @@ static void add_progress(EnsembleProgress *sum, const EnsembleProgress *one) {
 }
 
 EnsembleProgress campaign_progress(const Campaign *campaign) {
-    EnsembleProgress sum = {.seconds = monotonic_seconds() - campaign->start, .stage = ""};
+    EnsembleProgress sum = {.seconds = seconds_now() - campaign->start, .stage = ""};
     double done = 0;
     for (size_t p = 0; p < campaign->count; p++) {
         const Point *point = &campaign->point[p];
@@ -301,7 +295,7 @@ static Status put_facts(const Campaign *campaign, Results *all, double seconds) 
     char digits[32];
     TRY(config_point_plan(&first, campaign->points, 0));
     Status status =
-        provenance_put(all, first, campaign->plan_text, monotonic_seconds() - campaign->start);
+        provenance_put(all, first, campaign->plan_text, seconds_now() - campaign->start);
     memory_free(first);
     say_keys(campaign->points, &words);
     if (status == OK) status = results_put_fact(all, "system", text_words(&words));
@@ -335,8 +329,7 @@ static Status write_all(Campaign *campaign, Results *all) {
     TRY(store_write_results(campaign->store, all));
     if (report_write(all, store_directory(campaign->store)) != OK)
         snprintf(campaign->note, sizeof campaign->note, "%s", status_sentence());
-    return store_log(campaign->store, "finished after %.1f s",
-                     monotonic_seconds() - campaign->start);
+    return store_log(campaign->store, "finished after %.1f s", seconds_now() - campaign->start);
 }
 
 static Status finish_sweep(Campaign *campaign, Results **out) {

@@ -3,6 +3,7 @@
 #include "ensemble/ensemble.h"
 
 #include "base/memory.h"
+#include "base/seconds.h"
 #include "ensemble/unit.h"
 
 #include <math.h>
@@ -10,7 +11,6 @@
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 struct Ensemble {
     EnsembleShared shared;
@@ -21,12 +21,6 @@ struct Ensemble {
     atomic_size_t threads_left;
     double start; // monotonic seconds
 };
-
-static double monotonic_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static Status allocate(Ensemble *ensemble, const Plan *plan) {
     EnsembleShared *shared = &ensemble->shared;
@@ -104,7 +98,7 @@ static void *work(void *argument) {
 }
 
 Status ensemble_start(Ensemble *ensemble) {
-    ensemble->start = monotonic_seconds();
+    ensemble->start = seconds_now();
     atomic_store(&ensemble->threads_left, ensemble->threads);
     for (; ensemble->started < ensemble->threads; ensemble->started++) {
         pthread_t *thread = &ensemble->thread[ensemble->started];
@@ -144,7 +138,7 @@ EnsembleProgress ensemble_progress(const Ensemble *ensemble) {
     const EnsembleShared *shared = &ensemble->shared;
     const size_t replicas = (size_t)shared->plan->ensemble.replicas;
     EnsembleProgress progress = {
-        .seconds = monotonic_seconds() - ensemble->start, .replicas = replicas, .stage = ""};
+        .seconds = seconds_now() - ensemble->start, .replicas = replicas, .stage = ""};
     double done = 0, done_now = 0, least = 2, ticks = 0;
     pthread_mutex_t *mutex = (pthread_mutex_t *)&shared->mutex; // a look changes nothing
     pthread_mutex_lock(mutex);

@@ -2,6 +2,7 @@
 // One replica from its checkpoint or its packing to its end.
 #include "ensemble/unit.h"
 
+#include "base/seconds.h"
 #include "protocol/replica.h"
 #include "store/checkpoint.h"
 #include "store/trajectory.h"
@@ -18,12 +19,6 @@ typedef struct Run {
     double last_checkpoint; // wall seconds
     unsigned requests_seen;
 } Run;
-
-static double monotonic_seconds(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 // CPU time of this thread.
 static double thread_seconds(void) {
@@ -74,14 +69,14 @@ static Status write_checkpoint(Run *run) {
         status = checkpoint_write(run->shared->store, run->index, archive.bytes, archive.size);
     }
     archive_free(&archive);
-    run->last_checkpoint = monotonic_seconds();
+    run->last_checkpoint = seconds_now();
     run->requests_seen = atomic_load(&run->shared->checkpoint_requests);
     return status;
 }
 
 static bool checkpoint_due(const Run *run) {
     if (atomic_load(&run->shared->checkpoint_requests) != run->requests_seen) return true;
-    const double since = monotonic_seconds() - run->last_checkpoint;
+    const double since = seconds_now() - run->last_checkpoint;
     return since >= run->shared->plan->output.checkpoint_every;
 }
 
@@ -130,7 +125,7 @@ static Status advance(Run *run) {
 }
 
 static Status run_through(Run *run) {
-    run->last_checkpoint = monotonic_seconds();
+    run->last_checkpoint = seconds_now();
     run->requests_seen = atomic_load(&run->shared->checkpoint_requests);
     while (true) {
         TRY(write_frames(run));

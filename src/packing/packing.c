@@ -8,6 +8,7 @@
 #include "packing/packing.h"
 
 #include "base/memory.h"
+#include "base/seconds.h"
 #include "dmc/dmc.h"
 #include "edbd/edbd.h"
 #include "packing/compress.h"
@@ -15,7 +16,6 @@
 #include "packing/lattice.h"
 
 #include <math.h>
-#include <time.h>
 
 static const double WINDOW = 0.01;           // in d sqrt(m/kT), as all times, for diameters near 1
 static const int64_t WINDOWS_PER_DRAW = 10;  // of the velocities
@@ -369,12 +369,6 @@ static Status pack(State *state, RngKey key, const atomic_int *stop, PackingRepo
     TRY(state->oriented ? pack_bodies(state, key, stop, report)
                         : pack_balls(state, key, stop, report));
     return settle(state);
-}
-
-static double seconds_now(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 Status packing_create(State **out, const System *system, RngKey key, const atomic_int *stop,
