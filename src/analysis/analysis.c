@@ -48,7 +48,9 @@ static Status derive_from(Results *results, const ResultSeries *series, const Sy
         TRY(derive_compression(results, series, system));
         return derive_theory(results, series->stage, system);
     }
-    if (strcmp(observable, "energy") == 0) return derive_drift(results, series);
+    if (strcmp(observable, "energy") == 0 || strcmp(observable, "bond_order") == 0) {
+        return derive_drift(results, series);
+    }
     if (strcmp(observable, "pressure") == 0) {
         TRY(derive_drift(results, series));
         return derive_theory(results, series->stage, system);

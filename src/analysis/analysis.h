@@ -18,7 +18,7 @@
 //   contact_value_A_B, compressibility_factor_contact             of contact_distribution
 //   compressibility_factor_compression, pressure_compression      of virtual_compression
 //   compressibility_factor_theory, pressure_theory                hard discs and spheres only
-//   pressure_drift, energy_drift                                  of pressure, energy
+//   pressure_drift, energy_drift, bond_order_local_drift, _global_drift   of these in blocks
 //   collective_scattering_normalised, a series   of collective_scattering and its _ends
 //   OBSERVABLE_relaxation_time, OBSERVABLE_kohlrausch_amplitude, _time, _exponent, _window, series
 //                                        of self_scattering and collective_scattering_normalised

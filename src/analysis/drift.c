@@ -17,18 +17,30 @@ static double mean_of(const double *values, size_t from, size_t to) {
     return count > 0 ? sum / count : (double)NAN;
 }
 
-Status derive_drift(Results *results, const ResultSeries *series) {
-    const size_t blocks = series->size;
-    if (series->axes != 1 || strcmp(series->axis[0].name, "time") != 0 || blocks < 2) return OK;
-    char name[2 * RESULT_NAME];
-    snprintf(name, sizeof name, "%s_drift", series->observable);
+static Status put_drift(Results *results, const ResultSeries *series, size_t first, size_t blocks,
+                        const char *name) {
     for (size_t r = 0; r < results->replicas; r++) {
-        const double *values = series->values + r * blocks;
+        const double *values = series->values + r * series->size + first;
         TRY(results_put_scalar(
             results, series->stage, name, series->unit,
             "Mean of the second half of the stage less that of the first: well "
             "above its error, the stage is not stationary.",
             r, mean_of(values, (blocks + 1) / 2, blocks) - mean_of(values, 0, blocks / 2)));
+    }
+    return OK;
+}
+
+// Time is the last axis; one of labels may stand before it.
+Status derive_drift(Results *results, const ResultSeries *series) {
+    const ResultAxis *time = &series->axis[series->axes - 1], *kind = &series->axis[0];
+    const bool alone = series->axes == 1;
+    if (strcmp(time->name, "time") != 0 || time->count < 2) return OK;
+    if (!alone && (series->axes != 2 || !kind->labels)) return OK;
+    for (size_t row = 0; row < series->size / time->count; row++) {
+        char name[3 * RESULT_NAME];
+        snprintf(name, sizeof name, "%s%s%s_drift", series->observable, alone ? "" : "_",
+                 alone ? "" : kind->labels[row]);
+        TRY(put_drift(results, series, row * time->count, time->count, name));
     }
     return OK;
 }

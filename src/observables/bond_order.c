@@ -243,10 +243,10 @@ static void archive(Observer *observer, Archive *archive) {
     if (archive_status(archive, false) == OK) self->done = (size_t)done;
 }
 
-static double mean_of(const double *values, size_t from, size_t to) {
+static double mean_of(const double *values, size_t count) {
     double sum = 0;
-    for (size_t k = from; k < to; k++) sum += values[k];
-    return to > from ? sum / (double)(to - from) : (double)NAN;
+    for (size_t k = 0; k < count; k++) sum += values[k];
+    return sum / (double)count;
 }
 
 static Status put_scalars(const BondOrder *self, Results *results, size_t replica) {
@@ -254,17 +254,11 @@ static Status put_scalars(const BondOrder *self, Results *results, size_t replic
     TRY(observer_put_scalar(&self->observer, "bond_order_local", "",
                             "Bond-orientational order of the neighbours of a particle, psi_6 in "
                             "two dimensions, q_6 in three; mean over particles.",
-                            results, replica, mean_of(self->values, 0, self->done)));
-    TRY(observer_put_scalar(&self->observer, "bond_order_global", "",
-                            "Bond-orientational order of all particles together: of order "
-                            "1/sqrt(N) in a fluid or glass, of order 1 in a crystal.",
-                            results, replica, mean_of(global, 0, self->done)));
-    return observer_put_scalar(&self->observer, "bond_order_growth", "",
-                               "Global order in the second half of the stage less that in the "
-                               "first: well above its error, a crystal is growing.",
-                               results, replica,
-                               mean_of(global, self->done / 2, self->done) -
-                                   mean_of(global, 0, self->done / 2));
+                            results, replica, mean_of(self->values, self->done)));
+    return observer_put_scalar(&self->observer, "bond_order_global", "",
+                               "Bond-orientational order of all particles together: of order "
+                               "1/sqrt(N) in a fluid or glass, of order 1 in a crystal.",
+                               results, replica, mean_of(global, self->done));
 }
 
 static Status put_looks(const BondOrder *self, double *times_seen, Results *results,
@@ -307,8 +301,7 @@ static size_t memory(const Settings *settings, const System *system, const Clock
 
 const ObservableKind observable_bond_order = {
     .name = "bond_order",
-    .about = "Bond-orientational order, local and global, and whether it grows: does the sample "
-             "crystallise?",
+    .about = "Bond-orientational order, local and global: does the sample crystallise?",
     .options = {rows, sizeof rows / sizeof *rows, sizeof(BondSettings)},
     .check = check,
     .create = create,

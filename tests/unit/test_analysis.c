@@ -388,9 +388,22 @@ START_TEST(a_stage_that_drifts_is_told) {
             .axes = 1,
             .axis = {{.name = "time", .unit = "d^2/D0", .count = 11, .values = times}}};
         ck_assert_int_eq(results_put_series(results, &shape, r, values), OK);
+        static const char *const orders[] = {"local", "global"};
+        ResultSeries both = shape;
+        strcpy(both.observable, "bond_order");
+        both.axis[1] = shape.axis[0];
+        both.axis[0] = (ResultAxis){.name = "order", .unit = "", .count = 2, .labels = orders};
+        both.axes = 2;
+        const double steady[11] = {0};
+        double two[22];
+        memcpy(two, steady, sizeof steady);
+        memcpy(two + 11, values, sizeof values);
+        ck_assert_int_eq(results_put_series(results, &both, r, two), OK);
     }
     const System system = system_of(2, 100, 0.5, 1);
     ck_assert_int_eq(analysis_derive(results, &system), OK);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "bond_order_local_drift"), 0, 1e-12);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "bond_order_global_drift"), 0.3, 1e-12);
     ck_assert_double_eq_tol(scalar_of(results, "quiescent", "pressure_drift"), 0.3, 1e-12);
     ck_assert_double_eq_tol(error_of(results, "quiescent", "pressure_drift"), 0, 1e-12);
     results_free(results);
