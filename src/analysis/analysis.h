@@ -20,8 +20,8 @@
 //   compressibility_factor_theory, pressure_theory                hard discs and spheres only
 //   pressure_drift, energy_drift, bond_order_local_drift, _global_drift   of these in blocks
 //   collective_scattering_normalised, a series   of collective_scattering and its _ends
-//   OBSERVABLE_relaxation_time, OBSERVABLE_kohlrausch_amplitude, _time, _exponent, _window, series
-//                                        of self_scattering and collective_scattering_normalised
+//   OBSERVABLE_relaxation_time and OBSERVABLE_kohlrausch_amplitude, _time, _exponent, _window and
+//   _scan, series                        of self_scattering and collective_scattering_normalised
 //   non_gaussian_parameter, a series     of squared_displacement and quartic_displacement
 //   four_point_susceptibility, a series                           of overlap and overlap_square
 // With several species, diffusion is given for all particles and, with _NAME, for each species.

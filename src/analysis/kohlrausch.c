@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The end of a scattering function's decay: its relaxation time, where it has fallen to 1/e, and
 // Kohlrausch's law A exp(-(t/tau)^beta). The law holds of the last decay only, so that it is fitted
-// from a beginning that is scanned: the fits are given for every beginning, and chosen is that
-// around which, half a decade to both sides, the exponent changes least. The errors are the
+// from a beginning that is scanned: the exponent of every beginning is given, and chosen is that
+// around which, half a decade to both sides, it changes least. The errors are the
 // jackknife's over replicas, with the same window for all.
 #include "analysis/derive.h"
 #include "base/memory.h"
@@ -96,10 +96,10 @@ static Law fit(Curve curve) {
 typedef struct Row {
     const Results *results;
     const ResultSeries *series;
-    size_t first; // element at the first lag
-    Curve curve;  // its window is the one that was chosen
-    double *mean; // [lags], of all replicas or of those without one
-    double *exponent;
+    size_t first;     // element at the first lag
+    Curve curve;      // its window is the one that was chosen
+    double *mean;     // [lags], of all replicas or of those without one
+    double *exponent; // [lags], of the law that begins there; NaN where none may
 } Row;
 
 enum { NOBODY = -1 };
@@ -222,13 +222,26 @@ static Status put_quantity(Results *results, const ResultSeries *of, size_t quan
     return OK;
 }
 
-static Status derive_rows(Results *results, const ResultSeries *series, Row *row, double *values) {
+// Of the mean over replicas: one value, that has no error.
+static Status put_scan(Results *results, const ResultSeries *of, const double *exponents) {
+    ResultSeries shape = *of;
+    snprintf(shape.observable, sizeof shape.observable, "%.40s_kohlrausch_scan", of->observable);
+    snprintf(shape.about, sizeof shape.about,
+             "beta of Kohlrausch's law fitted to the mean over replicas from each time on.");
+    shape.unit[0] = '\0';
+    return results_put_series(results, &shape, 0, exponents);
+}
+
+static Status derive_rows(Results *results, const ResultSeries *series, Row *row, double *values,
+                          double *exponents) {
     const size_t rows = series->size / row->curve.lags;
     for (size_t i = 0; i < rows; i++) {
         row->first = i * row->curve.lags;
+        row->exponent = exponents + row->first;
         derive_row(row, values, i, rows);
     }
     const ResultSeries shape = *series; // results may move it when they grow
+    TRY(put_scan(results, &shape, exponents));
     for (size_t q = 0; q < QUANTITIES; q++) TRY(put_quantity(results, &shape, q, values, rows));
     return OK;
 }
@@ -240,17 +253,17 @@ Status derive_kohlrausch(Results *results, const ResultSeries *series) {
     Row row = {.results = results,
                .series = series,
                .curve = {.lags = time->count, .times = time->values}};
-    double *values = NULL;
+    double *values = NULL, *exponents = NULL;
     Status status = NEW_ARRAY(row.mean, time->count);
-    if (status == OK) status = NEW_ARRAY(row.exponent, time->count);
+    if (status == OK) status = NEW_ARRAY(exponents, series->size);
     if (status == OK)
         status = NEW_ARRAY(values, results->replicas * QUANTITIES * (series->size / time->count));
     row.curve.values = row.mean;
     gsl_error_handler_t *before = gsl_set_error_handler_off(); // a fit that fails is no number
-    if (status == OK) status = derive_rows(results, series, &row, values);
+    if (status == OK) status = derive_rows(results, series, &row, values, exponents);
     gsl_set_error_handler(before);
     memory_free(values);
-    memory_free(row.exponent);
+    memory_free(exponents);
     memory_free(row.mean);
     return status;
 }

@@ -67,6 +67,11 @@ START_TEST(kohlrausch_law_is_found_behind_the_plateau) {
         ck_assert_double_eq_tol(found(results, "kohlrausch_exponent", q).value, 0.6, 1e-3);
         ck_assert_double_eq_tol(found(results, "kohlrausch_time", q).value * faster / 50, 1, 2e-3);
         ck_assert_double_gt(found(results, "kohlrausch_window", q).value * faster, 0.03);
+        // From a time in the plateau on the law holds; from the first lags on, it is off by ten
+        // times that tolerance at least.
+        ck_assert_double_eq_tol(found(results, "kohlrausch_scan", q * LAGS + 25).value, 0.6, 1e-3);
+        ck_assert_double_gt(fabs(found(results, "kohlrausch_scan", q * LAGS + 5).value - 0.6),
+                            0.01);
         // Where 0.7 exp(-x^0.6) is 1/e of the first value, between two lags.
         const double first = glassy(1e-3 * faster, 1), x = log(0.7 * exp(1) / first);
         ck_assert_double_eq_tol(
