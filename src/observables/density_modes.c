@@ -3,11 +3,18 @@
 // recurrence, block by block.
 #include "observables/density_modes.h"
 
+#include "base/constants.h"
 #include "base/cpu.h"
 #include "base/memory.h"
 
 #include <stdbool.h>
 #include <stdlib.h>
+
+void wave_vector_of(const Box *box, const LatticeVector *vector, double q[3]) {
+    for (int a = 0; a < 3; a++) {
+        q[a] = a < box->dimension ? 2 * PI * vector->n[a] / box->edge[a] : 0;
+    }
+}
 
 static size_t table_size(int32_t most) {
     return ((size_t)most + 1) * MODES_BLOCK;

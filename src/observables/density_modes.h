@@ -14,6 +14,8 @@ typedef struct LatticeVector {
     int32_t n[3];
 } LatticeVector;
 
+void wave_vector_of(const Box *box, const LatticeVector *vector, double q[3]); // in 1/d
+
 // Particles at a time: their powers of exp(2 pi i x/L) lie in `table` while all vectors are run.
 enum { MODES_BLOCK = 64 };
 

@@ -46,12 +46,9 @@ static bool walk_next(const Walk *walk, LatticeVector *vector) {
 }
 
 static double length_of(const Walk *walk, const LatticeVector *vector) {
-    double square = 0;
-    for (int a = 0; a < walk->box.dimension; a++) {
-        const double q = 2 * PI * vector->n[a] / walk->box.edge[a];
-        square += q * q;
-    }
-    return sqrt(square);
+    double q[3];
+    wave_vector_of(&walk->box, vector, q);
+    return sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]);
 }
 
 // One of each q, -q; not the origin.
