@@ -65,6 +65,9 @@ static Status derive_from(Results *results, const ResultSeries *series, const Sy
     if (strcmp(observable, "quartic_displacement") == 0) {
         return derive_non_gaussian(results, series, system);
     }
+    if (strcmp(observable, "stress_wandering") == 0) {
+        return derive_viscosity(results, series, system);
+    }
     if (strcmp(observable, "overlap_square") == 0) {
         return derive_susceptibility(results, series, system);
     }

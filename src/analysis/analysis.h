@@ -24,5 +24,6 @@
 //   _scan, series                        of self_scattering and collective_scattering_normalised
 //   non_gaussian_parameter, a series     of squared_displacement and quartic_displacement
 //   four_point_susceptibility, a series                           of overlap and overlap_square
+//   zero_shear_viscosity and _window; viscosity, a series          of stress_wandering
 // With several species, diffusion is given for all particles and, with _NAME, for each species.
 Status analysis_derive(Results *results, const System *system);

@@ -26,4 +26,5 @@ Status derive_drift(Results *results, const ResultSeries *blocks);
 Status derive_kohlrausch(Results *results, const ResultSeries *scattering);
 Status derive_normalised_scattering(Results *results, const ResultSeries *ends);
 Status derive_non_gaussian(Results *results, const ResultSeries *quartic, const System *system);
+Status derive_viscosity(Results *results, const ResultSeries *wandering, const System *system);
 Status derive_susceptibility(Results *results, const ResultSeries *square, const System *system);
