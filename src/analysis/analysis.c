@@ -59,6 +59,10 @@ static Status derive_from(Results *results, const ResultSeries *series, const Sy
         strcmp(observable, "collective_scattering_normalised") == 0) {
         return derive_kohlrausch(results, series);
     }
+    if (strcmp(observable, "planar_structure_factor") == 0 ||
+        strcmp(observable, "structure_factor_cuts") == 0) {
+        return derive_structure_change(results, series);
+    }
     if (strcmp(observable, "collective_scattering_ends") == 0) {
         return derive_normalised_scattering(results, series);
     }

@@ -117,7 +117,7 @@ static void title_curve(Curve *curve, const Figure *figure, const size_t index[R
         const ResultAxis *axis = &figure->series->axis[i];
         const bool chosen = figure->kind && figure->kind->only && axis->labels &&
                             strcmp(axis->labels[index[i]], figure->kind->only) == 0;
-        if (axis == figure->x || axis->count < 2 || chosen) continue;
+        if (axis == figure->x || axis == figure->y || axis->count < 2 || chosen) continue;
         put_coordinate(&title, axis, index[i]);
     }
     snprintf(curve->title, sizeof curve->title, "%s", text_words(&title));
@@ -135,7 +135,7 @@ static bool axis_has(const ResultAxis *axis, const char *label) {
 static bool begins_curve(const Figure *figure, const size_t index[RESULT_AXES]) {
     for (size_t i = 0; i < figure->series->axes; i++) {
         const ResultAxis *axis = &figure->series->axis[i];
-        if (axis == figure->x && index[i] != 0) return false;
+        if ((axis == figure->x || axis == figure->y) && index[i] != 0) return false;
         if (!figure->kind || !figure->kind->only || !axis_has(axis, figure->kind->only)) continue;
         if (strcmp(axis->labels[index[i]], figure->kind->only) != 0) return false;
     }
@@ -157,13 +157,29 @@ static void choose_curves(Figure *figure) {
     }
 }
 
+static size_t stride_of(const ResultSeries *series, size_t axis) {
+    size_t stride = 1;
+    for (size_t i = axis + 1; i < series->axes; i++) stride *= series->axis[i].count;
+    return stride;
+}
+
+static void choose_upward(Figure *figure) {
+    for (size_t i = 0; i < figure->series->axes; i++) {
+        const ResultAxis *axis = &figure->series->axis[i];
+        if (strcmp(axis->name, figure->kind->upward) != 0 || axis->count < 2) continue;
+        figure->y = axis;
+        figure->y_stride = stride_of(figure->series, i);
+    }
+}
+
 Figure figure_of(const Results *results, const ResultSeries *series) {
     const FigureKind *kind = figure_kind_of(series);
     const size_t along = axis_to_draw_along(series);
     ASSERT(along != NO_AXIS);
-    Figure figure = {.results = results, .series = series, .kind = kind, .stride = 1};
+    Figure figure = {.results = results, .series = series, .kind = kind};
     figure.x = &series->axis[along];
-    for (size_t i = along + 1; i < series->axes; i++) figure.stride *= series->axis[i].count;
+    figure.stride = stride_of(series, along);
+    if (kind && kind->upward) choose_upward(&figure);
     if (kind && kind->line) figure.line = results_find_series(results, series->stage, kind->line);
     if (figure.line && !same_shape(figure.line, series)) figure.line = NULL;
     if (kind && kind->level) {
@@ -196,13 +212,15 @@ void figure_caption(Text *text, const Figure *figure) {
     notation_unit(text, kind && kind->about ? kind->about : figure->series->about);
     if ((figure->line || figure->level) && kind->about_line)
         text_add(text, " %s", kind->about_line);
-    if (results->replicas > 1) {
+    if (results->replicas > 1 && figure->y) {
+        text_add(text, " Mean over %zu replicas.", results->replicas);
+    } else if (results->replicas > 1) {
         text_add(text, " Mean over %zu replicas; %s: standard error of the mean.",
                  results->replicas, figure_is_dense(figure) ? "bands" : "bars");
     } else {
         text_put(text, " One replica, hence no errors.");
     }
-    if (figure->left_out > 0) {
+    if (figure->left_out > 0 && !figure->y) {
         text_add(text, " %zu further curves are in the numbers.", figure->left_out);
     }
 }

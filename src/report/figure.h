@@ -22,8 +22,11 @@ typedef struct FigureKind {
     const char *line;    // another series of the stage, of this shape: drawn as lines
     const char *formula; // or a function of x, in gnuplot's notation
     const char *line_title;
-    const char *ratio; // symbol of value/line, in a panel below
-    const char *level; // a scalar of the stage, drawn as a horizontal line
+    const char *ratio;  // symbol of value/line, in a panel below
+    const char *upward; // the axis along y of a picture whose colour is the value, `y` its symbol
+    const char *colour; // symbol of the value in such a picture
+    bool signed_colour; // it may be negative: white is zero
+    const char *level;  // a scalar of the stage, drawn as a horizontal line
     const char *level_title;
     const char *about;      // what is to be seen, a sentence for the caption
     const char *about_line; // and about the line, where there is one
@@ -50,7 +53,9 @@ typedef struct Figure {
     const FigureKind *kind;    // NULL for the plain rule
     char name[FIGURE_NAME];    // of the files, without ending
     const ResultAxis *x;
-    size_t stride;      // elements from one point to the next along x
+    size_t stride;       // elements from one point to the next along x
+    const ResultAxis *y; // of a picture whose colour is the value; NULL for curves
+    size_t y_stride;
     size_t curve_count; // drawn
     size_t left_out;    // further curves, not drawn
     Curve curve[FIGURE_CURVES];
@@ -64,6 +69,10 @@ void figure_title(Text *text, const Figure *figure);
 void figure_caption(Text *text, const Figure *figure);
 void figure_numbers(Text *csv, const Figure *figure);
 void figure_script(Text *script, const Figure *figure);
+
+// The same of a figure with y.
+void figure_map_numbers(Text *csv, const Figure *figure);
+void figure_map_script(Text *script, const Figure *figure);
 
 // Writes FOLDER/NAME.csv and .gp, lets gnuplot draw NAME.svg, and adds that to `page`.
 Status figure_draw(Text *page, const Figure *figure, const char *folder);

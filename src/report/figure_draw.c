@@ -55,8 +55,8 @@ static Status take_picture(Text *page, const Figure *figure, const char *folder)
 Status figure_draw(Text *page, const Figure *figure, const char *folder) {
     char script[FIGURE_NAME + 4];
     snprintf(script, sizeof script, "%s.gp", figure->name);
-    TRY(write_part(figure, folder, "csv", figure_numbers));
-    TRY(write_part(figure, folder, "gp", figure_script));
+    TRY(write_part(figure, folder, "csv", figure->y ? figure_map_numbers : figure_numbers));
+    TRY(write_part(figure, folder, "gp", figure->y ? figure_map_script : figure_script));
     TRY(gnuplot_run(folder, script));
     return take_picture(page, figure, folder);
 }

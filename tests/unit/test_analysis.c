@@ -423,6 +423,42 @@ START_TEST(deriving_twice_changes_nothing) {
 }
 END_TEST
 
+START_TEST(a_structure_factor_changes_since_the_first_stage_that_has_it) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 2), OK);
+    const double q[] = {-1, 0, 1};
+    ResultSeries shape = {
+        .observable = "structure_factor_cuts",
+        .axes = 1,
+        .axis = {{.name = "wave_number", .unit = "1/d", .count = 3, .values = q}}};
+    static const char *const stages[] = {"rest", "shear", "faster"};
+    for (size_t stage = 0; stage < 3; stage++) {
+        strcpy(shape.stage, stages[stage]);
+        for (size_t r = 0; r < 2; r++) {
+            const double factor = (double)(1 + stage) * (double)(1 + r);
+            const double values[] = {factor, NAN, 3 * factor};
+            ck_assert_int_eq(results_put_series(results, &shape, r, values), OK);
+        }
+    }
+    const System system = system_of(2, 100, 0.1, 1);
+    for (int twice = 0; twice < 2; twice++) {
+        ck_assert_int_eq(analysis_derive(results, &system), OK);
+        ck_assert_ptr_null(results_find_series(results, "rest", "structure_factor_cuts_change"));
+        for (size_t stage = 1; stage < 3; stage++) {
+            const ResultSeries *change =
+                series_of(results, stages[stage], "structure_factor_cuts_change");
+            for (size_t r = 0; r < 2; r++) {
+                const double factor = (double)stage * (double)(1 + r);
+                ck_assert_double_eq(change->values[3 * r], factor);
+                ck_assert(isnan(change->values[3 * r + 1]));
+                ck_assert_double_eq(change->values[3 * r + 2], 3 * factor);
+            }
+        }
+    }
+    results_free(results);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("analysis");
     TCase *c = tcase_create("analysis");
@@ -444,6 +480,7 @@ int main(void) {
     tcase_add_test(c, only_hard_discs_and_spheres_have_an_equation_of_state);
     tcase_add_test(c, a_stage_that_drifts_is_told);
     tcase_add_test(c, deriving_twice_changes_nothing);
+    tcase_add_test(c, a_structure_factor_changes_since_the_first_stage_that_has_it);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);

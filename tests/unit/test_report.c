@@ -414,6 +414,41 @@ START_TEST(an_observable_without_a_row_is_drawn_by_the_plain_rule) {
 }
 END_TEST
 
+START_TEST(a_series_over_a_plane_is_drawn_as_a_picture) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    const double q[] = {-1, 0, 1};
+    static const char *const pairs[] = {"small-small", "total"};
+    const ResultSeries shape = {
+        .stage = "rest",
+        .observable = "planar_structure_factor",
+        .unit = "",
+        .about = "S.",
+        .axes = 3,
+        .axis = {{.name = "pair", .unit = "", .count = 2, .labels = pairs},
+                 {.name = "wave_number_x", .unit = "1/d", .count = 3, .values = q},
+                 {.name = "wave_number_y", .unit = "1/d", .count = 3, .values = q}}};
+    double values[18];
+    for (int i = 0; i < 18; i++) values[i] = i == 13 ? NAN : i;
+    results_put_series(results, &shape, 0, values);
+    const Figure figure = figure_of(results, &results->series[0]);
+    ck_assert_ptr_nonnull(figure.y);
+    ck_assert_uint_eq(figure.curve_count, 1);
+    Text csv = {0}, script = {0};
+    figure_map_numbers(&csv, &figure);
+    ck_assert_str_eq(text_words(&csv), "wave_number_x,wave_number_y,value,error\n"
+                                       "-1,-1,9,NaN\n-1,0,10,NaN\n-1,1,11,NaN\n"
+                                       "0,-1,12,NaN\n0,0,NaN,NaN\n0,1,14,NaN\n"
+                                       "1,-1,15,NaN\n1,0,16,NaN\n1,1,17,NaN\n");
+    figure_map_script(&script, &figure);
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "set xlabel 'q_x  [d⁻¹]'\n"));
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "set yrange [-1.5:1.5]\n"));
+    text_free(&script);
+    text_free(&csv);
+    results_free(results);
+}
+END_TEST
+
 START_TEST(gnuplot_takes_quoted_words_literally) {
     Text script = {0};
     gnuplot_quoted(&script, "it's `rm`\n$x");
@@ -443,6 +478,7 @@ int main(void) {
     tcase_add_test(tests, a_broken_limit_is_the_first_thing_a_reader_sees);
     tcase_add_test(tests, where_nothing_can_be_written_the_sentence_names_the_path);
     tcase_add_test(tests, an_observable_without_a_row_is_drawn_by_the_plain_rule);
+    tcase_add_test(tests, a_series_over_a_plane_is_drawn_as_a_picture);
     tcase_add_test(tests, gnuplot_takes_quoted_words_literally);
     tcase_set_timeout(tests, 60); // gnuplot on a busy machine
     Suite *suite = suite_create("report");
