@@ -5,14 +5,14 @@
 // t, beyond it collisions make it fall; in between it is D0 less what collisions within the
 // interval take, and tends to D0 with the interval.
 //
-// Long time: the slope of a straight line a + 2 dim D t (slope.h says over which window). Where the
+// Long time: the slope of a straight line a + 2 dim D t (curve.h says over which window). Where the
 // slope is not seen to have stopped changing, it is an upper bound on the diffusion coefficient.
 //
 // The displacements of bodies with an axis, along and across the body axis and the director at the
 // time origin, have each its own: in the isotropic phase all tend to one, in the nematic those of
 // the director are the diffusion tensor.
 #include "analysis/derive.h"
-#include "analysis/slope.h"
+#include "analysis/curve.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -97,7 +97,7 @@ static void name_curve(Displacement *of, const ResultSeries *series, size_t spec
 
 Status derive_diffusion(Results *results, const ResultSeries *series) {
     const size_t species = series->axis[0].count, directions = series->axis[1].count;
-    if (series->axis[2].count < SLOPE_LAGS_LEAST) return OK;
+    if (series->axis[2].count < CURVE_LAGS_LEAST) return OK;
     double *weights = NULL;
     TRY(curve_weights(&weights, &series->axis[2]));
     Status status = OK;
@@ -114,7 +114,7 @@ Status derive_diffusion(Results *results, const ResultSeries *series) {
 
 Status derive_directional_diffusion(Results *results, const ResultSeries *series) {
     const size_t species = series->axis[0].count, directions = series->axis[1].count;
-    if (series->axis[2].count < SLOPE_LAGS_LEAST) return OK;
+    if (series->axis[2].count < CURVE_LAGS_LEAST) return OK;
     double *weights = NULL;
     TRY(curve_weights(&weights, &series->axis[2]));
     Status status = OK;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Einstein and Helfand's viscosity: the slope of how far the integral of the shear stress wanders,
-// between each two lags as a function of time, and over a window of the last lags (slope.h) as the
+// between each two lags as a function of time, and over a window of the last lags (curve.h) as the
 // zero-shear viscosity. It grows with time until the slowest relaxation is over, so where the slope
 // has not settled it is a lower bound.
 #include "analysis/derive.h"
-#include "analysis/slope.h"
+#include "analysis/curve.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -68,7 +68,7 @@ static Status put_slopes(Results *results, const Curve *curve, const System *sys
 }
 
 Status derive_viscosity(Results *results, const ResultSeries *wandering, const System *system) {
-    if (wandering->axis[0].count < SLOPE_LAGS_LEAST) return OK;
+    if (wandering->axis[0].count < CURVE_LAGS_LEAST) return OK;
     double *weights = NULL, *slopes = NULL, *times = NULL;
     Status status = curve_weights(&weights, &wandering->axis[0]);
     const size_t count = wandering->axis[0].count;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Slopes of curves over lags.
-#include "analysis/slope.h"
+#include "analysis/curve.h"
 
 #include "base/memory.h"
 #include "numerics/fit.h"
@@ -52,7 +52,7 @@ static size_t middle(const Curve *curve, size_t begin, size_t end) {
 
 static bool halves_agree(const Curve *curve, size_t begin, size_t end) {
     const size_t half = middle(curve, begin, end);
-    if (half - begin < SLOPE_LAGS_LEAST || end - half < SLOPE_LAGS_LEAST) return false;
+    if (half - begin < CURVE_LAGS_LEAST || end - half < SLOPE_LAGS_LEAST) return false;
     double sum = 0, squares = 0, count = 0;
     for (size_t replica = 0; replica < curve->results->replicas; replica++) {
         const double difference =
@@ -70,7 +70,7 @@ static bool halves_agree(const Curve *curve, size_t begin, size_t end) {
 
 size_t curve_window(const Curve *curve, bool *settled) {
     *settled = true;
-    for (size_t begin = 0; begin + 2 * SLOPE_LAGS_LEAST <= curve->lags; begin++) {
+    for (size_t begin = 0; begin + 2 * CURVE_LAGS_LEAST <= curve->lags; begin++) {
         if (halves_agree(curve, begin, curve->lags)) return middle(curve, begin, curve->lags);
     }
     *settled = false;

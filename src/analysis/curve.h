@@ -11,7 +11,7 @@
 
 #include "results/results.h"
 
-enum { SLOPE_LAGS_LEAST = 3 }; // in each half of a window
+enum { CURVE_LAGS_LEAST = 3 }; // in each half of a window
 
 // One curve of a series whose last axis is time.
 typedef struct Curve {
