@@ -52,7 +52,7 @@ static size_t middle(const Curve *curve, size_t begin, size_t end) {
 
 static bool halves_agree(const Curve *curve, size_t begin, size_t end) {
     const size_t half = middle(curve, begin, end);
-    if (half - begin < CURVE_LAGS_LEAST || end - half < SLOPE_LAGS_LEAST) return false;
+    if (half - begin < CURVE_LAGS_LEAST || end - half < CURVE_LAGS_LEAST) return false;
     double sum = 0, squares = 0, count = 0;
     for (size_t replica = 0; replica < curve->results->replicas; replica++) {
         const double difference =
