@@ -69,6 +69,12 @@ static Status derive_from(Results *results, const ResultSeries *series, const Sy
     if (strcmp(observable, "quartic_displacement") == 0) {
         return derive_non_gaussian(results, series, system);
     }
+    if (strcmp(observable, "contact_stress") == 0) {
+        return derive_contact_stress(results, series, system);
+    }
+    if (strcmp(observable, "contact_directions") == 0) {
+        return derive_contact_angles(results, series);
+    }
     if (strcmp(observable, "stress_wandering") == 0) {
         return derive_viscosity(results, series, system);
     }

@@ -24,6 +24,8 @@
 //   _scan, series                        of self_scattering and collective_scattering_normalised
 //   non_gaussian_parameter, a series     of squared_displacement and quartic_displacement
 //   four_point_susceptibility, a series                           of overlap and overlap_square
+//   shear_stress_contact, normal_stress_difference_contact, pressure_contact   of contact_stress
+//   contact_angle, a series                                        of contact_directions
 //   zero_shear_viscosity and _window; viscosity, a series          of stress_wandering
 // With several species, diffusion is given for all particles and, with _NAME, for each species.
 Status analysis_derive(Results *results, const System *system);

@@ -11,24 +11,32 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const double FALLEN = 0.6;
 enum { CUBIC = 3, SMOOTH = 5, BINS_LEAST = 3 * (CUBIC + 1) };
 
-// Mean over replicas and over up to SMOOTH bins from `bin` on.
-static double smooth(const Results *results, const ResultSeries *series, size_t row, size_t bins,
+// Rows of a series that are extrapolated from one window, side by side.
+typedef struct Rows {
+    size_t first, count;
+} Rows;
+
+// Mean over replicas, rows and up to SMOOTH bins from `bin` on.
+static double smooth(const Results *results, const ResultSeries *series, Rows rows, size_t bins,
                      size_t bin) {
     double sum = 0, samples = 0;
-    for (size_t k = bin; k < bins && k < bin + SMOOTH; k++, samples++) {
-        sum += results_series_estimate(results, series, row * bins + k).value;
+    for (size_t row = rows.first; row < rows.first + rows.count; row++) {
+        for (size_t k = bin; k < bins && k < bin + SMOOTH; k++, samples++) {
+            sum += results_series_estimate(results, series, row * bins + k).value;
+        }
     }
     return sum / samples;
 }
 
-static size_t window(const Results *results, const ResultSeries *series, size_t row, size_t bins) {
-    const double first = smooth(results, series, row, bins, 0);
+static size_t window(const Results *results, const ResultSeries *series, Rows rows, size_t bins) {
+    const double least = FALLEN * fabs(smooth(results, series, rows, bins, 0));
     size_t end = bins < BINS_LEAST ? bins : BINS_LEAST;
-    while (end < bins && smooth(results, series, row, bins, end) > FALLEN * first) end++;
+    while (end < bins && fabs(smooth(results, series, rows, bins, end)) > least) end++;
     return end;
 }
 
@@ -71,7 +79,7 @@ Status derive_contact(Results *results, const ResultSeries *series) {
     size_t *windows = NULL;
     TRY(NEW_ARRAY(windows, pairs));
     for (size_t pair = 0; pair < pairs; pair++) {
-        windows[pair] = window(results, series, pair, bins);
+        windows[pair] = window(results, series, (Rows){pair, 1}, bins);
     }
     Status status = OK;
     for (size_t replica = 0; status == OK && replica < results->replicas; replica++) {
@@ -84,7 +92,7 @@ Status derive_contact(Results *results, const ResultSeries *series) {
 Status derive_compression(Results *results, const ResultSeries *series, const System *system) {
     const size_t bins = series->axis[0].count;
     if (bins < CUBIC + 1) return OK;
-    const size_t end = window(results, series, 0, bins);
+    const size_t end = window(results, series, (Rows){0, 1}, bins);
     for (size_t replica = 0; replica < results->replicas; replica++) {
         double excess = NAN;
         TRY(fit_value_at_edge(series->values + replica * series->size, end, CUBIC, &excess));
@@ -97,4 +105,99 @@ Status derive_compression(Results *results, const ResultSeries *series, const Sy
                                system_number_density(system) * (1 + excess)));
     }
     return OK;
+}
+
+// The stress tensor at contact by its elements; what the series does not have is 0.
+typedef struct Tensor {
+    double xx, yy, zz, xy;
+} Tensor;
+
+static double *element_of(Tensor *tensor, const char *name) {
+    if (strcmp(name, "xx") == 0) return &tensor->xx;
+    if (strcmp(name, "yy") == 0) return &tensor->yy;
+    if (strcmp(name, "zz") == 0) return &tensor->zz;
+    return strcmp(name, "xy") == 0 ? &tensor->xy : NULL;
+}
+
+static Status put_tensor(Results *results, const ResultSeries *series, const System *system,
+                         Tensor stress, size_t replica) {
+    const char *stage = series->stage, *unit = series->unit;
+    const double dimension = (double)system->dimension;
+    TRY(results_put_scalar(
+        results, stage, "shear_stress_contact", unit,
+        "sigma_xy from the directions in which pairs touch: no collision enters.", replica,
+        stress.xy));
+    TRY(results_put_scalar(results, stage, "normal_stress_difference_contact", unit,
+                           "sigma_xx - sigma_yy from the directions in which pairs touch.", replica,
+                           stress.xx - stress.yy));
+    return results_put_scalar(results, stage, "pressure_contact", unit,
+                              "From the pairs that touch, kinetic part included.", replica,
+                              system_number_density(system) -
+                                  (stress.xx + stress.yy + stress.zz) / dimension);
+}
+
+// All elements are extrapolated from the same window: that in which the pressure falls.
+Status derive_contact_stress(Results *results, const ResultSeries *series, const System *system) {
+    const size_t elements = series->axis[0].count, bins = series->axis[1].count;
+    if (bins < BINS_LEAST) return OK;
+    const size_t end = window(results, series, (Rows){0, 2}, bins); // xx and yy
+    for (size_t replica = 0; replica < results->replicas; replica++) {
+        Tensor stress = {0};
+        for (size_t e = 0; e < elements; e++) {
+            double *at = element_of(&stress, series->axis[0].labels[e]);
+            if (!at) continue;
+            TRY(fit_value_at_edge(series->values + replica * series->size + e * bins, end, CUBIC,
+                                  at));
+        }
+        TRY(put_tensor(results, series, system, stress, replica));
+    }
+    return OK;
+}
+
+// contact[pair][angle] of one replica.
+static Status extrapolate_angles(const ResultSeries *series, const size_t *windows, size_t replica,
+                                 double *contact) {
+    const size_t pairs = series->axis[0].count, angles = series->axis[1].count,
+                 bins = series->axis[2].count;
+    const double *row = series->values + replica * series->size;
+    for (size_t pair = 0; pair < pairs; pair++) {
+        for (size_t k = 0; k < angles; k++, row += bins) {
+            TRY(fit_value_at_edge(row, windows[pair], CUBIC, contact++));
+        }
+    }
+    return OK;
+}
+
+static Status put_angles(Results *results, size_t at, const size_t *windows, double *contact) {
+    for (size_t replica = 0; replica < results->replicas; replica++) {
+        const ResultSeries *series = &results->series[at]; // moves when another is put
+        ResultSeries shape = {.about = "Partial pair distribution at contact by the direction of "
+                                       "the pair, from the x axis towards the y axis.",
+                              .axes = 2,
+                              .axis = {series->axis[0], series->axis[1]}};
+        snprintf(shape.stage, sizeof shape.stage, "%s", series->stage);
+        strcpy(shape.observable, "contact_angle");
+        TRY(extrapolate_angles(series, windows, replica, contact));
+        TRY(results_put_series(results, &shape, replica, contact));
+    }
+    return OK;
+}
+
+Status derive_contact_angles(Results *results, const ResultSeries *series) {
+    const size_t pairs = series->axis[0].count, angles = series->axis[1].count,
+                 bins = series->axis[2].count;
+    if (bins < BINS_LEAST) return OK;
+    size_t *windows = NULL;
+    double *contact = NULL;
+    Status status = NEW_ARRAY(windows, pairs);
+    if (status == OK) status = NEW_ARRAY(contact, pairs * angles);
+    for (size_t pair = 0; status == OK && pair < pairs; pair++) {
+        windows[pair] = window(results, series, (Rows){pair * angles, angles}, bins);
+    }
+    if (status == OK) {
+        status = put_angles(results, (size_t)(series - results->series), windows, contact);
+    }
+    memory_free(windows);
+    memory_free(contact);
+    return status;
 }

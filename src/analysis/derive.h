@@ -27,5 +27,7 @@ Status derive_structure_change(Results *results, const ResultSeries *structure);
 Status derive_kohlrausch(Results *results, const ResultSeries *scattering);
 Status derive_normalised_scattering(Results *results, const ResultSeries *ends);
 Status derive_non_gaussian(Results *results, const ResultSeries *quartic, const System *system);
+Status derive_contact_stress(Results *results, const ResultSeries *series, const System *system);
+Status derive_contact_angles(Results *results, const ResultSeries *series);
 Status derive_viscosity(Results *results, const ResultSeries *wandering, const System *system);
 Status derive_susceptibility(Results *results, const ResultSeries *square, const System *system);

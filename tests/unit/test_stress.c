@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stresses from tallies made by hand.
 #include "analysis/analysis.h"
+#include "base/constants.h"
 #include "observe.h"
 
 static const RngKey KEY = {.seed = 5};
@@ -70,11 +71,46 @@ START_TEST(viscosity_is_the_slope_of_the_wandering) {
 }
 END_TEST
 
+// Two discs that all but touch, across the edge of the box, in a direction: the stress they carry,
+// and the sector that they are counted in.
+START_TEST(pairs_press_along_the_line_between_them) {
+    const double angle = PI / 6 + PI / 4 * _i, spacing = 0.002, r = 1 + spacing / 2;
+    System system = system_of(2, 2, 0.05, 1);
+    State *state = new_state(&system);
+    state->position[0][0] = state->position[1][0] = 0.01;
+    fold(state, 0, 1, 0.01 + r * cos(angle));
+    fold(state, 1, 1, 0.01 - r * sin(angle));
+    const Clock clock = clock_of(10, 1);
+    const Settings settings = settings_of(&observable_contact_stress.options);
+    Observer *observer = new_observer(&observable_contact_stress, &settings, state, &clock);
+    const Tally none = {0};
+    ck_assert_int_eq(observer->kind->see(observer, 1, state, &none), OK);
+    Results *results = written(observer, state);
+    const ResultSeries *stress = series_of(results, "quiescent", "contact_stress");
+    const size_t bins = stress->axis[1].count;
+    const double one = -1 / (box_volume(&state->box) * spacing * r);
+    ck_assert_double_eq_tol(stress->values[0], one * cos(angle) * cos(angle), 1e-9);
+    ck_assert_double_eq_tol(stress->values[bins], one * sin(angle) * sin(angle), 1e-9);
+    ck_assert_double_eq_tol(stress->values[2 * bins], -one * cos(angle) * sin(angle), 1e-9);
+    const ResultSeries *directions = series_of(results, "quiescent", "contact_directions");
+    const size_t sectors = directions->axis[1].count;
+    const double turned = angle < PI ? PI - angle : 2 * PI - angle; // y is mirrored
+    for (size_t k = 0; k < sectors; k++) {
+        const bool there = k == (size_t)(turned / PI * (double)sectors);
+        ck_assert(there == (directions->values[k * bins] > 0));
+    }
+    results_free(results);
+    observer->kind->free(observer);
+    state_free(state);
+}
+END_TEST
+
 static Suite *suite(void) {
     Suite *s = suite_create("stress");
     TCase *c = tcase_create("stress");
     tcase_add_test(c, steady_stress_wanders_as_the_square_of_time);
     tcase_add_test(c, viscosity_is_the_slope_of_the_wandering);
+    tcase_add_loop_test(c, pairs_press_along_the_line_between_them, 0, 8);
     suite_add_tcase(s, c);
     return s;
 }
