@@ -5,15 +5,14 @@
 // where the pairs of a polydisperse species meet at 1: its value at contact gives the pressure by
 // the virial theorem, independently of the collisions (Hansen & McDonald, Theory of Simple Liquids,
 // ch. 2),
-//   P V/(N kT) = 1 + sum over pairs ab of w_ab g_ab(1),
-//   w_ab = Omega/(dim N V) * sum over the pairs i in a, j in b of d_ij^dim, Omega = 2 pi or 4 pi.
+//   P V/(N kT) = 1 + sum over pairs ab of w_ab g_ab(1)   (w_ab: pair_sums.c).
 // Bodies with an axis touch at many distances and soft ones at none: they have g(r) only, that of
 // their centres.
-#include "base/constants.h"
 #include "base/memory.h"
 #include "observables/labels.h"
 #include "observables/looks.h"
 #include "observables/near_pairs.h"
+#include "observables/pair_sums.h"
 #include "observables/put.h"
 
 #include <math.h>
@@ -98,15 +97,6 @@ static double range_for(const PairSettings *settings, const Box *box) {
     return settings->last > 0 ? settings->last : fmin(USUAL_RANGE, half);
 }
 
-// Do all pairs touch at (d_i + d_j)/2?
-static bool has_contact(const System *system) {
-    for (size_t s = 0; s < system->species_count; s++) {
-        const ShapeKind shape = (ShapeKind)system->species[s].shape;
-        if (shape_is_oriented(shape) || !shape_is_hard(shape)) return false;
-    }
-    return true;
-}
-
 static Status check(const Settings *settings_, const System *system, const Clock *clock) {
     (void)clock;
     const PairSettings *settings = (const PairSettings *)settings_->bytes;
@@ -122,19 +112,13 @@ static Status check(const Settings *settings_, const System *system, const Clock
                            "%g, beyond which a particle meets its own images; make it shorter",
                            settings->last, shortest);
     }
-    if (has_contact(system) && settings->contact_last * widest > shortest / 2) {
+    if (pair_sums_have_contact(system) && settings->contact_last * widest > shortest / 2) {
         return status_fail(BAD_DATA,
                            "pair_distribution: contact.last = %g diameters of %g exceed half of "
                            "the box edge %g; take more particles",
                            settings->contact_last, widest, shortest);
     }
     return OK;
-}
-
-// Whole bins only: a pair beyond the length is not looked for.
-static size_t bins_for(double length, double spacing) {
-    const double bins = floor(length / spacing + 1e-9);
-    return bins < 1 ? 1 : (size_t)bins;
 }
 
 // A pair of the widest particles has to be found as far out as the contact histogram goes.
@@ -172,12 +156,12 @@ static Status create(Observer **out, const Settings *settings_, const State *sta
     self->species_count = state->system.species_count;
     self->far = (Histogram){.period = looks_period(clock, settings->looks),
                             .spacing = settings->spacing,
-                            .bins = bins_for(last, settings->spacing)};
-    if (has_contact(&state->system))
-        self->near =
-            (Histogram){.period = looks_period(clock, settings->contact_looks),
-                        .spacing = settings->contact_spacing,
-                        .bins = bins_for(settings->contact_last - 1, settings->contact_spacing)};
+                            .bins = pair_sums_bins(last, settings->spacing)};
+    if (pair_sums_have_contact(&state->system))
+        self->near = (Histogram){
+            .period = looks_period(clock, settings->contact_looks),
+            .spacing = settings->contact_spacing,
+            .bins = pair_sums_bins(settings->contact_last - 1, settings->contact_spacing)};
     Status status = make_histogram(&self->far, state, (double)self->far.bins * self->far.spacing);
     if (status == OK && self->near.bins > 0) {
         status = make_histogram(&self->near, state, contact_range(state, &self->near));
@@ -243,41 +227,6 @@ static void archive(Observer *observer, Archive *archive) {
     archive_u64(archive, self->near.counts, pairs * self->near.bins);
 }
 
-// Volume of the ball of this radius.
-static double ball(int dimension, double radius) {
-    return dimension == 2 ? PI * radius * radius : 4 * PI / 3 * radius * radius * radius;
-}
-
-// Sums over the pairs of different particles, i of species a and j of species b.
-typedef struct PairSums {
-    double number;
-    double contact; // of d_ij^dim
-} PairSums;
-
-static PairSums sums_over_pairs(const State *state, size_t a, size_t b) {
-    // sum of (d_i + d_j)^dim = sum of binomials times products of the moments of each species
-    const int dimension = state->box.dimension;
-    double moment[2][4] = {{0}}, itself = 0;
-    for (size_t i = 0; i < state->count; i++) {
-        const double d = state->diameter[i];
-        const double power[4] = {1, d, d * d, d * d * d};
-        for (int p = 0; p <= dimension; p++) {
-            moment[0][p] += state->species_of[i] == a ? power[p] : 0;
-            moment[1][p] += state->species_of[i] == b ? power[p] : 0;
-        }
-        itself += state->species_of[i] == a && a == b ? power[dimension] : 0;
-    }
-    static const double binomial[2][4] = {{1, 2, 1, 0}, {1, 3, 3, 1}};
-    double contact = 0;
-    for (int p = 0; p <= dimension; p++) {
-        contact += binomial[dimension - 2][p] * moment[0][p] * moment[1][dimension - p];
-    }
-    contact /= dimension == 2 ? 4 : 8;
-    const double same = a == b ? moment[0][0] : 0, share = a == b ? 0.5 : 1;
-    return (PairSums){.number = share * (moment[0][0] * moment[1][0] - same),
-                      .contact = share * (contact - itself)};
-}
-
 // Counts over those of an ideal gas: values[pair][bin] from the volume of each shell (for a contact
 // distance of 1 if `scaled`) and the sum over pairs of what multiplies it.
 static void fill(const PairDistribution *self, const Histogram *histogram, const State *state,
@@ -287,11 +236,12 @@ static void fill(const PairDistribution *self, const Histogram *histogram, const
     size_t at = 0;
     for (size_t a = 0; a < self->species_count; a++) {
         for (size_t b = a; b < self->species_count; b++) {
-            const PairSums sums = sums_over_pairs(state, a, b);
+            const PairSums sums = pair_sums_of(state, a, b);
             const double pairs = (scaled ? sums.contact : sums.number) / box_volume(&state->box);
             for (size_t k = 0; k < histogram->bins; k++, at++) {
-                const double shell = ball(dimension, first + (double)(k + 1) * spacing) -
-                                     ball(dimension, first + (double)k * spacing);
+                const double low = first + (double)k * spacing;
+                const double high = first + (double)(k + 1) * spacing;
+                const double shell = pair_sums_shell(dimension, low, high);
                 values[at] =
                     (double)histogram->counts[at] / ((double)histogram->looks * pairs * shell);
             }
@@ -332,16 +282,8 @@ static Status put_contact(const PairDistribution *self, const State *state, cons
 
 static Status put_weights(const PairDistribution *self, const State *state, const Labels *labels,
                           Results *results, size_t replica) {
-    const int dimension = state->box.dimension;
-    const double solid_angle = dimension == 2 ? 2 * PI : 4 * PI;
     double weights[PAIRS_MOST];
-    size_t pair = 0;
-    for (size_t a = 0; a < self->species_count; a++) {
-        for (size_t b = a; b < self->species_count; b++) {
-            weights[pair++] = solid_angle * sums_over_pairs(state, a, b).contact /
-                              ((double)dimension * (double)state->count * box_volume(&state->box));
-        }
-    }
+    pair_sums_weights(state, weights);
     const ResultSeries shape = {
         .unit = "",
         .about = "Weights w of the contact values in P V/(N kT) = 1 + sum of w_ab g_ab(contact).",
@@ -378,8 +320,8 @@ static size_t memory(const Settings *settings_, const System *system, const Cloc
     const PairSettings *settings = (const PairSettings *)settings_->bytes;
     const Box box = system_box(system);
     const double range = range_for(settings, &box);
-    const size_t bins = bins_for(range, settings->spacing) +
-                        bins_for(settings->contact_last - 1, settings->contact_spacing);
+    const size_t bins = pair_sums_bins(range, settings->spacing) +
+                        pair_sums_bins(settings->contact_last - 1, settings->contact_spacing);
     return sizeof(PairDistribution) + pair_count(system->species_count) * bins * sizeof(uint64_t) +
            2 * near_pairs_memory(system, range);
 }

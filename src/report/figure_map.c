@@ -7,6 +7,7 @@
 #include "report/notation.h"
 
 #include <math.h>
+#include <string.h>
 
 static void put_number(Text *csv, double value, const char *before) { // NaN where there is none
     char digits[NUMBER_SIZE];
@@ -67,9 +68,10 @@ void figure_map_script(Text *script, const Figure *figure) {
              "data = '%s.csv'\n"
              "set border linewidth 1.2\n"
              "set tics out scale 0.8\n"
-             "set size ratio -1\n"
              "unset key\n",
              figure->name, figure->name, figure->name, figure->name, figure->name, figure->name);
+    const bool same_scale = strcmp(figure->x->unit, figure->y->unit) == 0;
+    if (same_scale) text_put(script, "set size ratio -1\n");
     text_put(script, figure->kind->signed_colour ? SIGNED : EVEN);
     put_label(script, "x", figure->kind->x, figure->x->unit);
     put_label(script, "y", figure->kind->y, figure->y->unit);

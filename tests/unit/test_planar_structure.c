@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Structure on the plane of flow and gradient: the picture of S(q) and its cuts against a slow twin
-// that goes through all vectors and all particles.
+// Structure on the plane of flow and gradient: pictures and cuts of S(q), pair distributions by
+// direction, against slow twins that go through all vectors, all particles and all pairs.
 #include "observe.h"
 
 #include "base/constants.h"
@@ -143,11 +143,142 @@ START_TEST(cuts_agree_with_their_slow_twin) {
 }
 END_TEST
 
+// A pair and harmonic of species over shells, from all pairs and their nearest images by trial.
+static double slow_harmonic(State *state, int harmonic, const size_t species[2], double low,
+                            double high) {
+    double sum = 0, looks = 0, pairs = 0;
+    const int dimension = state->box.dimension;
+    for (int64_t tick = STEP; tick <= TICKS; tick += STEP, looks++) {
+        scatter_at(state, tick);
+        pairs = 0;
+        for (size_t i = 0; i < state->count; i++) {
+            for (size_t j = 0; j < state->count; j++) {
+                if (i == j || state->species_of[i] != species[0]) continue;
+                if (state->species_of[j] != species[1]) continue;
+                pairs++;
+                double r[3] = {0, 0, 0};
+                for (int a = 0; a < dimension; a++) {
+                    r[a] = state->position[a][j] - state->position[a][i];
+                    r[a] = remainder(r[a], state->box.edge[a]);
+                }
+                const double across = hypot(r[0], r[1]), length = hypot(across, r[2]);
+                if (length < low || length >= high) continue;
+                const double twice = 2 * atan2(r[1], r[0]), weight = pow(across / length, 2);
+                sum += harmonic == 0   ? 1
+                       : harmonic == 1 ? weight * sin(twice)
+                                       : weight * cos(twice);
+            }
+        }
+    }
+    const double shell =
+        dimension == 2 ? PI * (high * high - low * low) : 4 * PI / 3 * (pow(high, 3) - pow(low, 3));
+    const double norm = harmonic == 0 ? 1 : dimension == 2 ? 0.5 : 4.0 / 15;
+    return sum / (looks * pairs * shell / box_volume(&state->box)) / norm;
+}
+
+static Results *measured_angles(State *state, const System *system) {
+    const ObservableKind *kind = &observable_angular_pair_distribution;
+    const Clock clock = clock_of(TICKS, STEP);
+    Settings settings = settings_of(&kind->options);
+    set_number(&settings, &kind->options, "distances.spacing", 0.3);
+    set_number(&settings, &kind->options, "angles", 6);
+    ck_assert_msg(kind->check(&settings, system, &clock) == OK, "%s", status_sentence());
+    Observer *observer = new_observer(kind, &settings, state, &clock);
+    watch(observer, state, scatter_at, -1, TICKS);
+    Results *results = written(observer, state);
+    kind->free(observer);
+    return results;
+}
+
+static const size_t SPECIES_PAIRS[3][2] = {{0, 0}, {0, 1}, {1, 1}};
+
+// _i: dimension.
+START_TEST(harmonics_of_pairs_agree_with_their_slow_twin) {
+    const System system = oblong_system(2 + _i);
+    State *state = new_state(&system);
+    Results *results = measured_angles(state, &system);
+    const ResultSeries *g = series_of(results, "quiescent", "pair_harmonics");
+    const size_t bins = g->axis[2].count;
+    ck_assert_uint_ge(bins, 6);
+    for (size_t pair = 0; pair < 3; pair++) {
+        for (int h = 0; h < 3; h++) {
+            for (size_t k = 0; k < bins; k++) {
+                const double low = 0.3 * (double)k, high = low + 0.3;
+                const double slow = slow_harmonic(state, h, SPECIES_PAIRS[pair], low, high);
+                const double got = g->values[(pair * 3 + (size_t)h) * bins + k];
+                ck_assert_double_eq_tol(got, slow, 1e-9);
+            }
+        }
+    }
+    results_free(results);
+    state_free(state);
+}
+END_TEST
+
+START_TEST(angles_add_up_to_the_mean_over_directions) {
+    const System system = oblong_system(2 + _i);
+    State *state = new_state(&system);
+    Results *results = measured_angles(state, &system);
+    const ResultSeries *g = series_of(results, "quiescent", "angular_pair_distribution");
+    const ResultSeries *mean = series_of(results, "quiescent", "pair_harmonics");
+    const size_t bins = g->axis[1].count, angles = g->axis[2].count;
+    ck_assert_uint_eq(angles, 6);
+    ck_assert_double_eq_tol(g->axis[2].values[0], 15, 1e-12);
+    for (size_t row = 0; row < 3 * bins; row++) {
+        double sum = 0;
+        for (size_t t = 0; t < angles; t++) sum += g->values[row * angles + t] / (double)angles;
+        const size_t at = row / bins * 3 * bins + row % bins;
+        ck_assert_double_eq_tol(sum, mean->values[at], 1e-11);
+    }
+    results_free(results);
+    state_free(state);
+}
+END_TEST
+
+static void lie_along_the_diagonal(State *state, int64_t tick) {
+    (void)tick;
+    for (size_t i = 0; i < state->count; i++) { // pairs, each far from all others
+        const double column = (double)(i / 2 % 8), row = (double)(i / 16);
+        const double step = i % 2 ? 1.03 * sqrt(0.5) : 0;
+        state->position[0][i] = 4 * column + 3 - step;
+        state->position[1][i] = 4 * row + 1 + step;
+    }
+}
+
+START_TEST(pairs_along_the_falling_diagonal_are_seen_there) {
+    System system = system_of(2, 32, 0.02, 1);
+    State *state = new_state(&system);
+    ck_assert_double_gt(state->box.edge[0], 33);
+    const ObservableKind *kind = &observable_angular_pair_distribution;
+    const Clock clock = clock_of(TICKS, STEP);
+    const Settings settings = settings_of(&kind->options);
+    Observer *observer = new_observer(kind, &settings, state, &clock);
+    watch(observer, state, lie_along_the_diagonal, -1, TICKS);
+    Results *results = written(observer, state);
+    const ResultSeries *g = series_of(results, "quiescent", "pair_harmonics");
+    const ResultSeries *angles = series_of(results, "quiescent", "angular_pair_distribution");
+    const size_t bins = g->axis[2].count, bin = 51; // 1.03
+    ck_assert_double_gt(g->values[bin], 0);
+    ck_assert_double_eq_tol(g->values[bins + bin], -2 * g->values[bin], 1e-9); // sin(270) = -1
+    ck_assert_double_eq_tol(g->values[2 * bins + bin], 0, 1e-9);
+    for (size_t t = 0; t < 36; t++) { // 135 degrees is an edge of bins
+        const bool there = t == 26 || t == 27;
+        ck_assert(there || angles->values[bin * 36 + t] == 0);
+    }
+    results_free(results);
+    kind->free(observer);
+    state_free(state);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("planar_structure");
     TCase *tests = tcase_create("planar_structure");
     tcase_add_loop_test(tests, picture_agrees_with_its_slow_twin, 0, 2);
     tcase_add_loop_test(tests, cuts_agree_with_their_slow_twin, 0, 2);
+    tcase_add_loop_test(tests, harmonics_of_pairs_agree_with_their_slow_twin, 0, 2);
+    tcase_add_loop_test(tests, angles_add_up_to_the_mean_over_directions, 0, 2);
+    tcase_add_test(tests, pairs_along_the_falling_diagonal_are_seen_there);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
