@@ -222,13 +222,19 @@ static Status judge_method(const Node *root, const Node *node, const Plan *plan,
     const PropagatorKind *kind = stage->dynamics.kind;
     TRY(placed(root, own ? own : tree_find(root, "dynamics"),
                kind->check(&stage->dynamics.settings, &plan->system)));
+    if (!tree_find(node, "time") && !tree_find(node, "strain"))
+        return tree_fail(node, "stage '%s' needs a time%s", stage->name,
+                         stage->drive.flow.rate != 0 ? ", or a strain at which it ends" : "");
+    TRY(placed(root, node, stage_check_drive(plan, (size_t)(stage - plan->stages))));
     const double tick = kind->tick(&stage->dynamics.settings, &plan->system);
-    if (stage->time / tick < 1 - ROUNDING)
-        return tree_fail(place(node, "time", NULL), "time = %g %s is less than a single step of %g",
-                         stage->time, kind->time_unit, tick);
-    if (stage->time / tick < TICKS_MOST) return OK;
-    return tree_fail(place(node, "time", NULL), "time = %g %s is more than %g steps of %g",
-                     stage->time, kind->time_unit, TICKS_MOST, tick);
+    const double time = stage_time(stage);
+    const Node *end = place(node, stage->time > 0 ? "time" : "strain", NULL);
+    if (time / tick < 1 - ROUNDING)
+        return tree_fail(end, "time = %g %s is less than a single step of %g", time,
+                         kind->time_unit, tick);
+    if (time / tick < TICKS_MOST) return OK;
+    return tree_fail(end, "time = %g %s is more than %g steps of %g", time, kind->time_unit,
+                     TICKS_MOST, tick);
 }
 
 static Status judge_stage(const Node *root, const Plan *plan, size_t index) {

@@ -201,13 +201,16 @@ static Status read_stage(const Node *root, const Node *node, const Dynamics *dyn
     static const char *const others[] = {"dynamics", "observe", NULL};
     char name[OPTION_TEXT_SIZE + sizeof "stage ''"] = "a stage";
     TRY(options_default(&stage_options, stage));
+    TRY(options_default(&drive_options, &stage->drive));
     const Node *label = tree_find(node, "stage");
     if (label) {
         TRY(option_read(option_named(&stage_options, "stage"), label, stage));
         TRY(check_name(label, "stage", stage->name, NAME_SIZE));
         snprintf(name, sizeof name, "stage '%s'", stage->name);
     }
-    TRY(read_section(name, &stage_options, stage, others, node, true));
+    const OptionTarget targets[] = {{&stage_options, stage}, {&drive_options, &stage->drive}};
+    const OptionMap options = {name, targets, COUNT(targets), others};
+    TRY(options_read(&options, node, true));
     stage->dynamics = *dynamics;
     const Node *own = tree_find(node, "dynamics");
     if (own) TRY(read_dynamics(own, "dynamics", &stage->dynamics));

@@ -48,6 +48,8 @@ static const Section before_methods[] = {
 };
 static const Section before_observables[] = {
     {"protocol", NULL, "The stages, in order: a list of maps.", &stage_options},
+    {"protocol", NULL, "What drives a stage out of equilibrium: keys of the stage itself.",
+     &drive_options},
     {"protocol.dynamics", NULL,
      "Keys of dynamics for one stage; those not given are as for the whole run.", NULL},
     {"protocol.observe", NULL,
@@ -142,9 +144,6 @@ static const struct {
     const char *word;
     const char *sentence;
 } hints[] = {
-    {"shear_rate", "this version has no shear; its stages are at rest"},
-    {"strain", "this version has no shear; give the stage a time"},
-    {"oscillate", "this version has no oscillatory shear; its stages are at rest"},
     {"pull", "this version pulls no particle; its stages are at rest"},
     {"schematic", "this version has no schematic models; theory has the equations for discs and "
                   "spheres"},

@@ -11,11 +11,12 @@ static size_t cell_count(const int64_t number[3]) {
     return (size_t)number[0] * (size_t)number[1] * (size_t)number[2];
 }
 
-// More cells than particles would only cost time.
+// More cells than particles would only cost time. There are most of them in a box at rest.
 static void choose_cells(int64_t number[3], const Box *box, size_t count, double range) {
     const double most = box->dimension == 2 ? sqrt((double)count) : cbrt((double)count);
     for (int a = 0; a < 3; a++) {
-        const double fit = a < box->dimension ? fmin(box->edge[a] / range, most + 1) : 1;
+        const double wide = a == 0 ? range * box_widening(box) : range;
+        const double fit = a < box->dimension ? fmin(box->edge[a] / wide, most + 1) : 1;
         number[a] = fit < 1 ? 1 : (int64_t)fit;
     }
 }
@@ -35,7 +36,9 @@ Status near_pairs_create(NearPairs **out, const Box *box, size_t count, double r
     pairs->box = *box;
     pairs->range = range;
     pairs->count = count;
-    choose_cells(pairs->number, box, count, range);
+    const Box at_rest = {.dimension = box->dimension,
+                         .edge = {box->edge[0], box->edge[1], box->edge[2]}};
+    choose_cells(pairs->number, &at_rest, count, range);
     const Status status = allocate(pairs);
     if (status != OK) {
         near_pairs_free(pairs);
@@ -69,14 +72,18 @@ static size_t cell_at(const NearPairs *pairs, const int64_t at[3]) {
 
 static size_t cell_of(const NearPairs *pairs, const double position[3]) {
     int64_t at[3] = {0, 0, 0};
+    double fraction[3];
+    box_fractions(&pairs->box, position, fraction);
     for (int a = 0; a < pairs->box.dimension; a++) {
-        at[a] = (int64_t)(position[a] / pairs->box.edge[a] * (double)pairs->number[a]);
+        at[a] = (int64_t)(fraction[a] * (double)pairs->number[a]);
         if (at[a] >= pairs->number[a]) at[a] = pairs->number[a] - 1;
     }
     return cell_at(pairs, at);
 }
 
 void near_pairs_sort(NearPairs *pairs, const State *state) {
+    pairs->box = state->box; // sheared since
+    choose_cells(pairs->number, &pairs->box, pairs->count, pairs->range);
     const size_t cells = cell_count(pairs->number);
     size_t *cell = pairs->partner; // free between rows
     for (size_t c = 0; c <= cells; c++) pairs->first[c] = 0;
@@ -106,14 +113,16 @@ static inline double nearest_integer(double x) {
 // Squared distances from the particle in `slot` to those in slots [begin, end).
 static void squares_to(const NearPairs *pairs, size_t slot, size_t begin, size_t end,
                        double *square) {
-    const double *edge = pairs->box.edge;
+    const double *edge = pairs->box.edge, offset = pairs->box.offset;
     const double *x = pairs->position[0], *y = pairs->position[1], *z = pairs->position[2];
     const double inverse[3] = {1 / edge[0], 1 / edge[1], 1 / edge[2]};
     const double x0 = x[slot], y0 = y[slot], z0 = z[slot];
     for (size_t k = begin; k < end; k++) {
         double dx = x[k] - x0, dy = y[k] - y0, dz = z[k] - z0;
+        const double above = nearest_integer(dy * inverse[1]);
+        dy -= edge[1] * above;
+        dx -= offset * above;
         dx -= edge[0] * nearest_integer(dx * inverse[0]);
-        dy -= edge[1] * nearest_integer(dy * inverse[1]);
         dz -= edge[2] * nearest_integer(dz * inverse[2]);
         square[k - begin] = dx * dx + dy * dy + dz * dz;
     }

@@ -19,6 +19,7 @@ typedef struct Clock {
     const char *stage;  // its name, for the results
     bool flies;         // there are velocities and collisions
     bool thermostatted; // velocities are redrawn: positions diffuse
+    const Drive *drive; // of the stage, borrowed; NULL: at rest
     bool whole_steps;   // there are configurations at whole steps only: those of a trajectory
 } Clock;
 

@@ -6,6 +6,7 @@
 
 #include "base/option.h"
 #include "base/text.h"
+#include "propagator/drive.h"
 #include "rng/rng.h"
 #include "state/state.h"
 #include "state/tally.h"
@@ -35,6 +36,11 @@ struct PropagatorKind {
     Status (*check)(const Settings *settings, const System *system);
     bool flies;         // there are velocities, and collisions that the Tally counts
     bool thermostatted; // velocities are redrawn, so that positions diffuse
+    bool leans;         // can go on in a box that an earlier stage has sheared
+    unsigned drives;    // which it can do, of DriveKind
+    // BAD_DATA with a sentence that begins with the key, if it cannot be driven like this with
+    // these settings; NULL where it can be.
+    Status (*check_drive)(const Settings *settings, const System *system, const Drive *drive);
     double (*tick)(const Settings *settings, const System *system); // in time_unit
     double (*flight_time)(const Settings *settings); // of a tick, in d sqrt(m/kT); if it `flies`
     int64_t (*ticks_per_step)(const Settings *settings);
@@ -45,6 +51,8 @@ struct PropagatorKind {
 
     // Borrows the state until free. Draws velocities where the state has none (all zero).
     Status (*create)(Propagator **out, const Settings *settings, State *state, RngKey key);
+    // What drives the stage, of which so many steps are done; called after create, unless at rest.
+    Status (*drive)(Propagator *propagator, const Drive *drive, int64_t steps);
     // Called once, when a stage begins and before its time does; NULL where there is nothing to do.
     // May move the particles.
     Status (*prepare)(Propagator *propagator);

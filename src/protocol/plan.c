@@ -10,11 +10,11 @@
 static const Option stage_rows[] = {
     {"stage", OPTION_TEXT, offsetof(Stage, name), 0, 0, 0, "",
      "Name of the stage; it prefixes its results.", .required = 1},
-    {"time", OPTION_REAL, offsetof(Stage, time), 0, 1e-9, 1e12, "time unit of the method",
+    {"time", OPTION_REAL, offsetof(Stage, time), 0, 0, 1e12, "time unit of the method",
      "How long the stage lasts: d^2/D0 with event-driven and dynamic-monte-carlo, d sqrt(m/kT) "
-     "with "
-     "newtonian dynamics, cycles with monte-carlo.",
-     .required = 1},
+     "with newtonian dynamics, cycles with monte-carlo. Give this or strain."},
+    {"strain", OPTION_REAL, offsetof(Stage, strain), 0, 0, 1e9, "",
+     "The strain at which a stage with a steady shear_rate ends, in place of a time."},
 };
 const OptionTable stage_options = {stage_rows, sizeof stage_rows / sizeof *stage_rows,
                                    sizeof(Stage)};
@@ -43,6 +43,10 @@ bool plan_is_theory(const Plan *plan) {
     return plan->theory.species_count > 0;
 }
 
+double stage_time(const Stage *stage) {
+    return stage->time > 0 ? stage->time : stage->strain / fabs(stage->drive.flow.rate);
+}
+
 static const double TICKS_MOST = 4e18; // an int64 count of ticks with room to add
 
 Clock plan_clock(const Plan *plan, size_t stage) {
@@ -50,7 +54,7 @@ Clock plan_clock(const Plan *plan, size_t stage) {
     const PropagatorKind *kind = at->dynamics.kind;
     const double tick = kind->tick(&at->dynamics.settings, &plan->system);
     const int64_t per_step = kind->ticks_per_step(&at->dynamics.settings);
-    const double steps = rint(at->time / (tick * (double)per_step));
+    const double steps = rint(stage_time(at) / (tick * (double)per_step));
     ASSERT(steps * (double)per_step < TICKS_MOST);
     return (Clock){.tick = tick,
                    .flight_time = kind->flies ? kind->flight_time(&at->dynamics.settings) : NAN,
@@ -59,7 +63,8 @@ Clock plan_clock(const Plan *plan, size_t stage) {
                    .unit = kind->time_unit,
                    .stage = at->name,
                    .flies = kind->flies,
-                   .thermostatted = kind->thermostatted};
+                   .thermostatted = kind->thermostatted,
+                   .drive = drive_kinds(&at->drive) ? &at->drive : NULL};
 }
 
 static Status check_fractions(const System *system) {
@@ -93,6 +98,45 @@ static Status check_system(const System *system) {
     return packing_check(system);
 }
 
+static Status check_end(const Stage *at) {
+    if (at->time > 0 && at->strain > 0)
+        return status_fail(BAD_DATA, "strain = %g: the stage has a time as well; one is enough",
+                           at->strain);
+    if (at->strain > 0 && at->drive.flow.rate == 0)
+        return status_fail(BAD_DATA,
+                           "strain = %g is where a stage with a steady shear_rate ends; give this "
+                           "one a time",
+                           at->strain);
+    if (at->time > 0 || at->strain > 0) return OK;
+    return status_fail(BAD_DATA, "time = %g must be above 0%s", at->time,
+                       at->drive.flow.rate != 0 ? ", or a strain be given" : "");
+}
+
+static bool sheared_before(const Plan *plan, size_t stage) {
+    for (size_t s = 0; s < stage; s++) {
+        if (drive_kinds(&plan->stages[s].drive) & DRIVE_FLOW) return true;
+    }
+    return false;
+}
+
+Status stage_check_drive(const Plan *plan, size_t stage) {
+    const Stage *at = &plan->stages[stage];
+    const PropagatorKind *kind = at->dynamics.kind;
+    TRY(drive_check(&at->drive));
+    TRY(check_end(at));
+    const unsigned wanted = drive_kinds(&at->drive);
+    if (wanted & DRIVE_FLOW & ~kind->drives)
+        return status_fail(BAD_DATA, "%s: the method %s has no shear; use event-driven",
+                           flow_words((char[FLOW_WORDS_SIZE]){0}, &at->drive.flow), kind->name);
+    if (sheared_before(plan, stage) && !kind->leans)
+        return status_fail(BAD_DATA,
+                           "stage '%s' follows a sheared one, and the method %s cannot go on in a "
+                           "sheared box; use event-driven or newtonian",
+                           at->name, kind->name);
+    if (!wanted || !kind->check_drive) return OK;
+    return kind->check_drive(&at->dynamics.settings, &plan->system, &at->drive);
+}
+
 static Status check_stage(const Plan *plan, size_t stage) {
     const Stage *at = &plan->stages[stage];
     const PropagatorKind *kind = at->dynamics.kind;
@@ -101,10 +145,11 @@ static Status check_stage(const Plan *plan, size_t stage) {
         if (strcmp(at->name, plan->stages[other].name) != 0) continue;
         return status_fail(BAD_DATA, "two stages are called '%s'", at->name);
     }
-    const double tick = kind->tick(&at->dynamics.settings, &plan->system);
-    if (!(at->time > 0 && at->time / tick < TICKS_MOST)) {
+    TRY(stage_check_drive(plan, stage));
+    const double tick = kind->tick(&at->dynamics.settings, &plan->system), time = stage_time(at);
+    if (!(time > 0 && time / tick < TICKS_MOST)) {
         return status_fail(BAD_DATA, "stage '%s': time = %g %s cannot be run in ticks of %g",
-                           at->name, at->time, kind->time_unit, tick);
+                           at->name, time, kind->time_unit, tick);
     }
     const Clock clock = plan_clock(plan, stage);
     for (size_t k = 0; k < at->observation_count; k++) {

@@ -17,7 +17,9 @@ typedef struct Observation {
 
 typedef struct Stage {
     char name[OPTION_TEXT_SIZE];
-    double time; // in the method's time_unit
+    double time;   // in the method's time_unit; 0: as long as the strain takes
+    double strain; // at which it ends, if that is given in place of a time
+    Drive drive;
     Dynamics dynamics;
     size_t observation_count;
     Observation observations[OBSERVATIONS_MOST];
@@ -45,11 +47,15 @@ typedef struct Plan {
     TheoryPlan theory; // with species: a run of the theory, of which all but the title is empty
 } Plan;
 
-extern const OptionTable stage_options; // `stage`, `time` of one entry of `protocol:`
+extern const OptionTable stage_options; // of one entry of `protocol:`, beside drive_options
 extern const OptionTable ensemble_options;
 extern const OptionTable output_options;
 
 bool plan_is_theory(const Plan *plan);
+
+// BAD_DATA with a sentence if a stage cannot be driven like this, or has no end.
+Status stage_check_drive(const Plan *plan, size_t stage);
+double stage_time(const Stage *stage); // how long it lasts, in the method's time_unit
 
 // The time axis of a stage: its time rounded to a whole number of steps, at least one.
 Clock plan_clock(const Plan *plan, size_t stage);

@@ -119,10 +119,14 @@ StageFrames plan_stage_frames(const Plan *plan, size_t stage) {
 }
 
 static Status make_propagator(Replica *replica) {
-    const Dynamics *dynamics = &replica->plan->stages[replica->stage].dynamics;
+    const Stage *stage = &replica->plan->stages[replica->stage];
+    const PropagatorKind *kind = stage->dynamics.kind;
     replica->clock = plan_clock(replica->plan, replica->stage);
-    return dynamics->kind->create(&replica->propagator, &dynamics->settings, replica->state,
-                                  replica->key);
+    TRY(kind->create(&replica->propagator, &stage->dynamics.settings, replica->state,
+                     replica->key));
+    if (!replica->clock.drive) return OK;
+    return kind->drive(replica->propagator, replica->clock.drive,
+                       replica->tick / replica->clock.ticks_per_step);
 }
 
 static Status begin_stage(Replica *replica) {

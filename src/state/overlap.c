@@ -31,15 +31,20 @@ static void choose_cells(Cells *cells, const State *state) {
     double width = state->box.dimension == 2 ? sqrt(room) : cbrt(room);
     for (size_t i = 0; i < state->count; i++) width = fmax(width, reach_of(state, i));
     for (int a = 0; a < 3; a++) {
-        const double fit = a < state->box.dimension ? state->box.edge[a] / width : 1;
+        const double wide = a == 0 ? width * box_widening(&state->box) : width;
+        const double fit = a < state->box.dimension ? state->box.edge[a] / wide : 1;
         cells->number[a] = fit < 3 ? 1 : (int64_t)fit;
     }
 }
 
-static int64_t cell_along(const Cells *cells, const State *state, int axis, size_t i) {
-    const double fraction = state->position[axis][i] / state->box.edge[axis];
-    const int64_t cell = (int64_t)(fraction * (double)cells->number[axis]);
-    return cell < 0 ? 0 : cell >= cells->number[axis] ? cells->number[axis] - 1 : cell;
+static void cell_at(const Cells *cells, const State *state, size_t i, int64_t at[3]) {
+    const double r[3] = {state->position[0][i], state->position[1][i], state->position[2][i]};
+    double fraction[3];
+    box_fractions(&state->box, r, fraction);
+    for (int a = 0; a < 3; a++) {
+        const int64_t cell = (int64_t)(fraction[a] * (double)cells->number[a]);
+        at[a] = cell < 0 ? 0 : cell >= cells->number[a] ? cells->number[a] - 1 : cell;
+    }
 }
 
 static int64_t cell_index(const Cells *cells, const int64_t at[3]) {
@@ -53,8 +58,8 @@ static Status fill_cells(Cells *cells, const State *state) {
     TRY(NEW_ARRAY(cells->next, state->count));
     for (size_t c = 0; c < total; c++) cells->first[c] = -1;
     for (size_t i = 0; i < state->count; i++) {
-        int64_t at[3] = {0, 0, 0};
-        for (int a = 0; a < state->box.dimension; a++) at[a] = cell_along(cells, state, a, i);
+        int64_t at[3];
+        cell_at(cells, state, i, at);
         const int64_t cell = cell_index(cells, at);
         cells->next[i] = cells->first[cell];
         cells->first[cell] = (int64_t)i;
@@ -131,8 +136,8 @@ static int reach(const Cells *cells, int axis) {
 
 static void search_round(const Cells *cells, const State *state, size_t i, double depth,
                          double *deepest, uint64_t *pairs) {
-    int64_t home[3] = {0, 0, 0};
-    for (int a = 0; a < state->box.dimension; a++) home[a] = cell_along(cells, state, a, i);
+    int64_t home[3];
+    cell_at(cells, state, i, home);
     for (int dz = -reach(cells, 2); dz <= reach(cells, 2); dz++) {
         for (int dy = -reach(cells, 1); dy <= reach(cells, 1); dy++) {
             for (int dx = -reach(cells, 0); dx <= reach(cells, 0); dx++) {

@@ -81,7 +81,7 @@ double state_packing_fraction(const State *state) {
 }
 
 static const int64_t STEPS_MOST = INT64_MAX / 2;      // no run gets there, and none may overflow
-static const uint64_t STATE_TAG = 0x5354415445303031; // "STATE001"
+static const uint64_t STATE_TAG = 0x5354415445303032; // "STATE002"
 
 void state_archive(State *state, Archive *archive) {
     uint64_t count = state->count;
@@ -95,7 +95,10 @@ void state_archive(State *state, Archive *archive) {
         archive_i32(archive, state->image[a], state->count);
         if (state->oriented) archive_f64(archive, state->orientation[a], state->count);
     }
+    box_archive(&state->box, archive);
+    archive_f64(archive, &state->shear_rate, 1);
     archive_i64(archive, &state->step, 1);
+    archive_require(archive, isfinite(state->shear_rate), "its shear rate is no number");
     archive_require(archive, state->step >= 0 && state->step <= STEPS_MOST,
                     "its step count cannot be");
     if (archive->loading && archive->status == OK && state_validate(state) != OK) {

@@ -17,9 +17,11 @@ typedef struct State {
     double *mass;           // [count], in m
     double *position[3];    // [3][count], folded into [0, edge), in d; z = 0 in 2D
     double *velocity[3];    // [3][count], in sqrt(kT/m)
-    int32_t *image[3];      // [3][count], unfolded position = position + image * edge
+    int32_t *image[3];      // [3][count], of which image of the particle is followed: see below
     double *orientation[3]; // [3][count], unit vectors along the body axes, z for particles without
                             // one; NULL unless `oriented`
+    double shear_rate;      // of the flow that the velocities contain, v_x = shear_rate y, in
+                            // sqrt(kT/m)/d
     int64_t step; // thermostat intervals, windows or trial moves since the replica began: addresses
                   // the random numbers
 } State;
@@ -28,9 +30,21 @@ typedef struct State {
 Status state_create(State **out, const System *system);
 void state_free(State *state);
 
-// Unfolded coordinate along an axis, in d.
+// Unfolded coordinate along an axis, in d: that of the image followed since the start, which moves
+// without jumps. Under shear its flow is shear_rate times its own y, whichever image it is; so the
+// non-affine displacement since a time at which the strain was g0 (box_strain) is, with the
+// displacements dX, dY and the unfolded Y of now,
+//     dX - (strain - g0) Y, dY         (Weysser, thesis, eq. 5.64).
 static inline double state_unfolded(const State *state, int axis, size_t particle) {
-    return state->position[axis][particle] + state->image[axis][particle] * state->box.edge[axis];
+    const double home =
+        state->position[axis][particle] + state->image[axis][particle] * state->box.edge[axis];
+    return axis == 0 ? home + state->image[1][particle] * box_displacement(&state->box) : home;
+}
+
+// Velocity without the flow, in sqrt(kT/m).
+static inline double state_peculiar_velocity(const State *state, int axis, size_t particle) {
+    const double velocity = state->velocity[axis][particle];
+    return axis == 0 ? velocity - state->shear_rate * state->position[1][particle] : velocity;
 }
 
 // Puts the particles where a stored configuration has them, in rows of three: folded positions,

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Drives: their keys, and how the rate of a flow goes with time. Rates enter the trajectory, so
+// they are computed without the C library's functions.
+#include "propagator/drive.h"
+
+#include "base/constants.h"
+#include "numerics/turn.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+
+static const Option rows[] = {
+    {.name = "shear_rate",
+     .type = OPTION_REAL,
+     .offset = offsetof(Drive, flow.rate),
+     .least = -1e6,
+     .most = 1e6,
+     .unit = "D0/d^2",
+     .about = "Steady shear: the rate of the flow v_x = shear_rate y, which is the bare Peclet "
+              "number; 0: at rest."},
+    {.name = "oscillate.amplitude",
+     .type = OPTION_REAL,
+     .offset = offsetof(Drive, flow.oscillation.amplitude),
+     .least = 0,
+     .most = 1000,
+     .unit = "",
+     .about = "Oscillatory shear: the largest strain; the strain is amplitude sin(frequency t)."},
+    {.name = "oscillate.frequency",
+     .type = OPTION_REAL,
+     .offset = offsetof(Drive, flow.oscillation.frequency),
+     .least = 0,
+     .most = 1e6,
+     .unit = "D0/d^2",
+     .about = "Angular frequency of oscillatory shear."},
+    {.name = "shear_table.times",
+     .type = OPTION_REALS,
+     .offset = offsetof(Drive, flow.table.times),
+     .least = 0,
+     .most = 1e12,
+     .unit = "d^2/D0",
+     .about = "Shear whose rate changes with time: times since the stage began, ascending."},
+    {.name = "shear_table.rates",
+     .type = OPTION_REALS,
+     .offset = offsetof(Drive, flow.table.rates),
+     .least = -1e6,
+     .most = 1e6,
+     .unit = "D0/d^2",
+     .about = "The shear rate at these times: straight lines between them, constant before the "
+              "first and after the last."},
+};
+const OptionTable drive_options = {rows, sizeof rows / sizeof *rows, sizeof(Drive)};
+
+static bool oscillates(const Flow *flow) {
+    return flow->oscillation.amplitude > 0 || flow->oscillation.frequency > 0;
+}
+
+static bool has_table(const Flow *flow) {
+    return flow->table.times.count > 0 || flow->table.rates.count > 0;
+}
+
+unsigned drive_kinds(const Drive *drive) {
+    const Flow *flow = &drive->flow;
+    return flow->rate != 0 || oscillates(flow) || has_table(flow) ? DRIVE_FLOW : 0;
+}
+
+const char *flow_words(char words[FLOW_WORDS_SIZE], const Flow *flow) {
+    if (oscillates(flow))
+        snprintf(words, FLOW_WORDS_SIZE, "oscillate = {amplitude: %g, frequency: %g}",
+                 flow->oscillation.amplitude, flow->oscillation.frequency);
+    else if (has_table(flow))
+        snprintf(words, FLOW_WORDS_SIZE, "shear_table = {times: [...], rates: [...]}");
+    else
+        snprintf(words, FLOW_WORDS_SIZE, "shear_rate = %g", flow->rate);
+    return words;
+}
+
+static Status check_table(const OptionReals *times, const OptionReals *rates) {
+    if (times->count != rates->count)
+        return status_fail(BAD_DATA, "shear_table = {...}: %d times and %d rates; give one of each",
+                           (int)times->count, (int)rates->count);
+    for (int64_t k = 1; k < times->count; k++) {
+        if (times->values[k] > times->values[k - 1]) continue;
+        return status_fail(BAD_DATA, "shear_table = {...}: times must ascend, but %g follows %g",
+                           times->values[k], times->values[k - 1]);
+    }
+    return OK;
+}
+
+Status drive_check(const Drive *drive) {
+    const Flow *flow = &drive->flow;
+    if ((flow->rate != 0) + oscillates(flow) + has_table(flow) > 1)
+        return status_fail(BAD_DATA, "%s: a stage has one of shear_rate, oscillate and shear_table",
+                           flow_words((char[FLOW_WORDS_SIZE]){0}, flow));
+    if ((flow->oscillation.amplitude > 0) != (flow->oscillation.frequency > 0))
+        return status_fail(BAD_DATA, "%s: both must be above 0",
+                           flow_words((char[FLOW_WORDS_SIZE]){0}, flow));
+    return check_table(&flow->table.times, &flow->table.rates);
+}
+
+// sin(angle), or its cosine.
+static double sine(double angle, bool cosine) {
+    const Lanes fraction = angle / (2 * PI) - (Lanes){0};
+    Lanes c, s;
+    turn_cosine_sine(&fraction, &c, &s);
+    return cosine ? c[0] : s[0];
+}
+
+// The mean over a span of time is that of a difference of sines, without taking one.
+static double oscillation_rate(const Flow *flow, double from, double to) {
+    const double w = flow->oscillation.frequency, half = (to - from) / 2;
+    return flow->oscillation.amplitude * sine(w * ((from + to) / 2), true) * sine(w * half, false) /
+           half;
+}
+
+// Strain of a table from its first time on, or backwards to before it.
+static double table_strain(const OptionReals *times, const OptionReals *rates, double time) {
+    const double *t = times->values, *rate = rates->values;
+    if (time <= t[0]) return rate[0] * (time - t[0]);
+    double strain = 0;
+    for (int64_t k = 1; k < times->count; k++) {
+        const double span = t[k] - t[k - 1], slope = (rate[k] - rate[k - 1]) / span;
+        const double part = time < t[k] ? time - t[k - 1] : span;
+        strain += part * (rate[k - 1] + slope * part / 2);
+        if (time < t[k]) return strain;
+    }
+    return strain + rate[times->count - 1] * (time - t[times->count - 1]);
+}
+
+double flow_rate(const Flow *flow, double from, double to) {
+    if (oscillates(flow)) return oscillation_rate(flow, from, to);
+    if (!has_table(flow)) return flow->rate;
+    const OptionReals *times = &flow->table.times, *rates = &flow->table.rates;
+    return (table_strain(times, rates, to) - table_strain(times, rates, from)) / (to - from);
+}
+
+double flow_strain(const Flow *flow, double time) {
+    if (oscillates(flow))
+        return flow->oscillation.amplitude * sine(flow->oscillation.frequency * time, false);
+    if (!has_table(flow)) return flow->rate * time;
+    const OptionReals *times = &flow->table.times, *rates = &flow->table.rates;
+    return table_strain(times, rates, time) - table_strain(times, rates, 0);
+}

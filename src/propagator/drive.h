@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What drives a stage out of equilibrium, as a plain value with its run-file keys: they stand in
+// the stage itself. A further drive is a member of Drive, rows in drive.c, a bit of DriveKind that
+// the methods which can do it set in `drives`, and what they make of it in their `drive`.
+#pragma once
+
+#include "base/option.h"
+#include "base/status.h"
+
+// Shear: the flow v_x = rate(t) y. Rates are in D0/d^2, so that a rate is the bare Peclet number of
+// the first species. At most one of the three is given.
+typedef struct Flow {
+    double rate; // steady; 0: none
+    struct {
+        double amplitude; // the strain is amplitude sin(frequency t)
+        double frequency; // angular, in D0/d^2
+    } oscillation;
+    struct {
+        OptionReals times; // in d^2/D0 since the stage began
+        OptionReals rates; // on straight lines between, constant before and after
+    } table;
+} Flow;
+
+typedef struct Drive {
+    Flow flow;
+} Drive;
+
+typedef enum DriveKind {
+    DRIVE_FLOW = 1 << 0,
+} DriveKind;
+
+extern const OptionTable drive_options; // keys of a stage, of a Drive
+
+unsigned drive_kinds(const Drive *drive); // those there are, of DriveKind; 0: the stage is at rest
+
+// BAD_DATA with a sentence that begins with the key, if the drive is not whole.
+Status drive_check(const Drive *drive);
+
+enum { FLOW_WORDS_SIZE = 96 };
+// As in the run file, for sentences: "shear_rate = 0.02".
+const char *flow_words(char words[FLOW_WORDS_SIZE], const Flow *flow);
+
+// Mean rate from one time of the stage to another, in d^2/D0: what the flow is kept at in between.
+double flow_rate(const Flow *flow, double from, double to);
+double flow_strain(const Flow *flow, double time); // since the stage began
