@@ -57,7 +57,10 @@ static Status derive_from(Results *results, const ResultSeries *series, const Sy
     }
     if (strcmp(observable, "self_scattering") == 0 ||
         strcmp(observable, "collective_scattering_normalised") == 0) {
-        return derive_kohlrausch(results, series);
+        const ResultSeries scattering = *series; // each adds series, which moves those there are
+        TRY(derive_kohlrausch(results, &scattering));
+        TRY(derive_factorisation(results, &scattering));
+        return derive_scaled(results, &scattering);
     }
     if (strcmp(observable, "planar_structure_factor") == 0 ||
         strcmp(observable, "structure_factor_cuts") == 0) {

@@ -22,6 +22,8 @@
 //   collective_scattering_normalised, a series   of collective_scattering and its _ends
 //   OBSERVABLE_relaxation_time and OBSERVABLE_kohlrausch_amplitude, _time, _exponent, _window and
 //   _scan, series                        of self_scattering and collective_scattering_normalised
+//   OBSERVABLE_plateau, _fall, _factorisation_X, _factorisation_Y, _factorisation_spread,
+//   _factorisation_window and _scaled, series                                  of the same two
 //   non_gaussian_parameter, a series     of squared_displacement and quartic_displacement
 //   four_point_susceptibility, a series                           of overlap and overlap_square
 //   shear_stress_contact, normal_stress_difference_contact, pressure_contact   of contact_stress

@@ -24,6 +24,8 @@ Status derive_theory(Results *results, const char *stage, const System *system);
 // Likewise.
 Status derive_drift(Results *results, const ResultSeries *blocks);
 Status derive_structure_change(Results *results, const ResultSeries *structure);
+Status derive_factorisation(Results *results, const ResultSeries *scattering);
+Status derive_scaled(Results *results, const ResultSeries *scattering);
 Status derive_kohlrausch(Results *results, const ResultSeries *scattering);
 Status derive_normalised_scattering(Results *results, const ResultSeries *ends);
 Status derive_non_gaussian(Results *results, const ResultSeries *quartic, const System *system);

@@ -4,6 +4,7 @@
 // from a beginning that is scanned: the exponent of every beginning is given, and chosen is that
 // around which, half a decade to both sides, it changes least. The errors are the
 // jackknife's over replicas, with the same window for all.
+#include "analysis/decay.h"
 #include "analysis/derive.h"
 #include "base/memory.h"
 
@@ -51,15 +52,8 @@ static bool is_decay(const Curve *curve) {
     return curve->end >= curve->begin + POINTS_LEAST;
 }
 
-// Where a straight line between the lags passes a level, in log t; NaN if it does not.
 static double time_at(const Curve *curve, double level) {
-    for (size_t k = 1; k < curve->lags; k++) {
-        const double above = curve->values[k - 1], below = curve->values[k];
-        if (!(above >= level && below < level) || !(curve->times[k - 1] > 0)) continue;
-        const double share = (above - level) / (above - below);
-        return curve->times[k - 1] * pow(curve->times[k] / curve->times[k - 1], share);
-    }
-    return NAN;
+    return decay_time_at(curve->times, curve->values, curve->lags, level);
 }
 
 static Law fit_with(gsl_multifit_nlinear_workspace *work, Curve *curve) {
@@ -102,20 +96,8 @@ typedef struct Row {
     double *exponent; // [lags], of the law that begins there; NaN where none may
 } Row;
 
-enum { NOBODY = -1 };
-
-// A later lag that a replica has not reached is left out by all.
 static void mean_without(Row *row, int64_t without) {
-    const ResultSeries *series = row->series;
-    for (size_t k = 0; k < row->curve.lags; k++) {
-        double sum = 0, count = 0;
-        for (size_t r = 0; r < row->results->replicas; r++) {
-            if ((int64_t)r == without) continue;
-            sum += series->values[r * series->size + row->first + k];
-            count++;
-        }
-        row->mean[k] = sum / count;
-    }
+    decay_mean(row->results, row->series, row->first, row->curve.lags, without, row->mean);
 }
 
 static size_t end_of(const Curve *curve) {
@@ -183,7 +165,7 @@ static void quantities(const Row *row, double out[QUANTITIES]) {
 static void derive_row(Row *row, double *values, size_t index, size_t rows) {
     double all[QUANTITIES], rest[QUANTITIES];
     const size_t replicas = row->results->replicas;
-    mean_without(row, NOBODY);
+    mean_without(row, DECAY_NOBODY);
     scan(row);
     choose_window(row);
     quantities(row, all);

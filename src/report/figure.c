@@ -64,20 +64,6 @@ static bool stands_behind_another(const ResultSeries *series) {
     return false;
 }
 
-static bool has_numbers(const Results *results, const ResultSeries *series) {
-    for (size_t i = 0; i < series->size * results->replicas; i++) {
-        if (isfinite(series->values[i])) return true;
-    }
-    return false;
-}
-
-bool figure_exists(const Results *results, const ResultSeries *series) {
-    const FigureKind *kind = figure_kind_of(series);
-    if (kind && kind->aside) return false;
-    if (axis_to_draw_along(series) == NO_AXIS || stands_behind_another(series)) return false;
-    return has_numbers(results, series);
-}
-
 static bool same_shape(const ResultSeries *a, const ResultSeries *b) {
     if (a->axes != b->axes) return false;
     for (size_t i = 0; i < a->axes; i++) {
@@ -142,11 +128,23 @@ static bool begins_curve(const Figure *figure, const size_t index[RESULT_AXES]) 
     return true;
 }
 
+// Of any replica, from this element on along x.
+static bool has_numbers(const Figure *figure, size_t first) {
+    const ResultSeries *series = figure->series;
+    for (size_t r = 0; r < figure->results->replicas; r++) {
+        const double *values = series->values + r * series->size + first;
+        for (size_t i = 0; i < figure->x->count; i++) {
+            if (isfinite(values[i * figure->stride])) return true;
+        }
+    }
+    return false;
+}
+
 static void choose_curves(Figure *figure) {
     for (size_t element = 0; element < figure->series->size; element++) {
         size_t index[RESULT_AXES];
         show_indices(figure->series, element, index);
-        if (!begins_curve(figure, index)) continue;
+        if (!begins_curve(figure, index) || !has_numbers(figure, element)) continue;
         if (figure->curve_count == FIGURE_CURVES) {
             figure->left_out++;
             continue;
@@ -188,6 +186,13 @@ Figure figure_of(const Results *results, const ResultSeries *series) {
     name_files(figure.name, series);
     choose_curves(&figure);
     return figure;
+}
+
+bool figure_exists(const Results *results, const ResultSeries *series) {
+    const FigureKind *kind = figure_kind_of(series);
+    if (kind && kind->aside) return false;
+    if (axis_to_draw_along(series) == NO_AXIS || stands_behind_another(series)) return false;
+    return figure_of(results, series).curve_count > 0;
 }
 
 void figure_title(Text *text, const Figure *figure) {

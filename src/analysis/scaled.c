@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The second scaling law, of the final decay: scattering functions against t/tau, tau where they
+// have fallen to 1/e, are one master curve for all states near the glass transition (Weysser,
+// thesis, ch. 3). Here they are put on one grid of t/tau, the same for all states, so that a sweep
+// can lay them over each other. tau is found anew for each sample of the jackknife.
+#include "analysis/decay.h"
+#include "analysis/derive.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { POINTS = 51, PER_DECADE = 10 };
+static const double FIRST = 1e-4; // up to 10
+
+static void scale(const double *times, const double *mean, size_t lags, const double *grid,
+                  double *out) {
+    const double tau = decay_time_at(times, mean, lags, mean[0] / exp(1));
+    for (size_t i = 0; i < POINTS; i++)
+        out[i] = isnan(tau) ? (double)NAN : decay_value_at(times, mean, lags, tau * grid[i]);
+}
+
+typedef struct Scaling {
+    const ResultSeries *series;
+    size_t lags, rows;
+    double grid[POINTS];
+    double *mean;   // [lags]
+    double *values; // [replica][row][POINTS]: pseudo-values
+} Scaling;
+
+static void derive_row(const Results *results, Scaling *scaling, size_t row) {
+    double all[POINTS], rest[POINTS];
+    const size_t lags = scaling->lags;
+    const double *times = scaling->series->axis[scaling->series->axes - 1].values;
+    decay_mean(results, scaling->series, row * lags, lags, DECAY_NOBODY, scaling->mean);
+    scale(times, scaling->mean, lags, scaling->grid, all);
+    for (size_t r = 0; r < results->replicas; r++) {
+        double *values = scaling->values + (r * scaling->rows + row) * POINTS;
+        decay_mean(results, scaling->series, row * lags, lags, (int64_t)r, scaling->mean);
+        scale(times, scaling->mean, lags, scaling->grid, rest);
+        for (size_t i = 0; i < POINTS; i++)
+            values[i] = pseudo_value(results->replicas, all[i], rest[i]);
+    }
+}
+
+static Status put(Results *results, const Scaling *scaling) {
+    ResultSeries shape = *scaling->series;
+    shape.axis[shape.axes - 1] =
+        (ResultAxis){.name = "scaled_time", .unit = "", .count = POINTS, .values = scaling->grid};
+    snprintf(shape.observable, sizeof shape.observable, "%.48s_scaled",
+             scaling->series->observable);
+    snprintf(shape.about, sizeof shape.about,
+             "Against t/tau, tau where the function has fallen to 1/e; jackknife over replicas.");
+    for (size_t r = 0; r < results->replicas; r++) {
+        TRY(results_put_series(results, &shape, r, scaling->values + r * scaling->rows * POINTS));
+    }
+    return OK;
+}
+
+// Time is the last axis.
+Status derive_scaled(Results *results, const ResultSeries *series) {
+    const ResultAxis *time = &series->axis[series->axes - 1];
+    if (strcmp(time->name, "time") != 0) return OK;
+    const ResultSeries shape = *series; // results may move it when they grow
+    Scaling scaling = {.series = &shape, .lags = time->count, .rows = series->size / time->count};
+    for (size_t i = 0; i < POINTS; i++) scaling.grid[i] = FIRST * pow(10, (double)i / PER_DECADE);
+    Status status = NEW_ARRAY(scaling.mean, scaling.lags);
+    if (status == OK) status = NEW_ARRAY(scaling.values, results->replicas * scaling.rows * POINTS);
+    for (size_t row = 0; row < scaling.rows && status == OK; row++)
+        derive_row(results, &scaling, row);
+    if (status == OK) status = put(results, &scaling);
+    memory_free(scaling.mean);
+    memory_free(scaling.values);
+    return status;
+}
