@@ -25,71 +25,61 @@ Status derive_theory(Results *results, const char *stage, const System *system) 
     return OK;
 }
 
-static Status derive_from(Results *results, const ResultSeries *series, const System *system) {
-    const char *observable = series->observable;
-    if (strcmp(observable, "mean_squared_displacement") == 0) {
-        if (series->axes > 3) return OK; // of waiting times: what ages has no coefficient
-        TRY(derive_diffusion(results, series));
-        return derive_free_displacement(results, series, system);
-    }
-    if (strcmp(observable, "directional_displacement") == 0) {
-        TRY(derive_directional_diffusion(results, series));
-        return derive_free_bodies(results, series, system);
-    }
-    if (strcmp(observable, "orientation_correlation") == 0) {
-        TRY(derive_relaxation(results, series));
-        return derive_free_bodies(results, series, system);
-    }
-    if (strcmp(observable, "contact_distribution") == 0) {
-        TRY(derive_contact(results, series));
-        return derive_theory(results, series->stage, system);
-    }
-    if (strcmp(observable, "virtual_compression") == 0) {
-        TRY(derive_compression(results, series, system));
-        return derive_theory(results, series->stage, system);
-    }
-    if (strcmp(observable, "energy") == 0 || strcmp(observable, "bond_order") == 0) {
-        return derive_drift(results, series);
-    }
-    if (strcmp(observable, "pressure") == 0) {
-        TRY(derive_drift(results, series));
-        return derive_theory(results, series->stage, system);
-    }
-    if (strcmp(observable, "self_scattering") == 0 ||
-        strcmp(observable, "collective_scattering_normalised") == 0) {
-        const ResultSeries scattering = *series; // each adds series, which moves those there are
-        TRY(derive_kohlrausch(results, &scattering));
-        TRY(derive_factorisation(results, &scattering));
-        return derive_scaled(results, &scattering);
-    }
-    if (strcmp(observable, "planar_structure_factor") == 0 ||
-        strcmp(observable, "structure_factor_cuts") == 0) {
-        return derive_structure_change(results, series);
-    }
-    if (strcmp(observable, "collective_scattering_ends") == 0) {
-        return derive_normalised_scattering(results, series);
-    }
-    if (strcmp(observable, "quartic_displacement") == 0) {
-        return derive_non_gaussian(results, series, system);
-    }
-    if (strcmp(observable, "contact_stress") == 0) {
-        return derive_contact_stress(results, series, system);
-    }
-    if (strcmp(observable, "contact_directions") == 0) {
-        return derive_contact_angles(results, series);
-    }
-    if (strcmp(observable, "stress_wandering") == 0) {
-        return derive_viscosity(results, series, system);
-    }
-    if (strcmp(observable, "overlap_square") == 0) {
-        return derive_susceptibility(results, series, system);
+static Status theory_beside(Results *results, const ResultSeries *series, const System *system) {
+    return derive_theory(results, series->stage, system);
+}
+
+// What is made of a series of this name: a row after the other, with the system or without.
+static const struct {
+    const char *observable;
+    Status (*alone)(Results *results, const ResultSeries *series);
+    Status (*with)(Results *results, const ResultSeries *series, const System *system);
+    size_t axes_most; // 0: any
+} derivations[] = {
+    // With an axis of waiting times: what ages has no coefficient.
+    {"mean_squared_displacement", .alone = derive_diffusion, .axes_most = 3},
+    {"mean_squared_displacement", .with = derive_free_displacement, .axes_most = 3},
+    {"directional_displacement", .alone = derive_directional_diffusion},
+    {"directional_displacement", .with = derive_free_bodies},
+    {"orientation_correlation", .alone = derive_relaxation},
+    {"orientation_correlation", .with = derive_free_bodies},
+    {"contact_distribution", .alone = derive_contact},
+    {"contact_distribution", .with = theory_beside},
+    {"virtual_compression", .with = derive_compression},
+    {"virtual_compression", .with = theory_beside},
+    {"energy", .alone = derive_drift},
+    {"bond_order", .alone = derive_drift},
+    {"pressure", .alone = derive_drift},
+    {"pressure", .with = theory_beside},
+    {"self_scattering", .alone = derive_kohlrausch},
+    {"self_scattering", .alone = derive_factorisation},
+    {"self_scattering", .alone = derive_scaled},
+    {"collective_scattering_ends", .alone = derive_normalised_scattering},
+    {"collective_scattering_normalised", .alone = derive_kohlrausch},
+    {"collective_scattering_normalised", .alone = derive_factorisation},
+    {"collective_scattering_normalised", .alone = derive_scaled},
+    {"planar_structure_factor", .alone = derive_structure_change},
+    {"structure_factor_cuts", .alone = derive_structure_change},
+    {"quartic_displacement", .with = derive_non_gaussian},
+    {"overlap_square", .with = derive_susceptibility},
+    {"contact_stress", .with = derive_contact_stress},
+    {"contact_directions", .alone = derive_contact_angles},
+    {"stress_wandering", .with = derive_viscosity},
+};
+
+static Status derive_from(Results *results, size_t index, const System *system) {
+    for (size_t i = 0; i < sizeof derivations / sizeof *derivations; i++) {
+        const ResultSeries *series = &results->series[index]; // moves when the results grow
+        const size_t most = derivations[i].axes_most;
+        if (strcmp(series->observable, derivations[i].observable) != 0) continue;
+        if (most > 0 && series->axes > most) continue;
+        TRY(derivations[i].alone ? derivations[i].alone(results, series)
+                                 : derivations[i].with(results, series, system));
     }
     return OK;
 }
 
 Status analysis_derive(Results *results, const System *system) {
-    for (size_t i = 0; i < results->series_count; i++) {
-        TRY(derive_from(results, &results->series[i], system));
-    }
+    for (size_t i = 0; i < results->series_count; i++) TRY(derive_from(results, i, system));
     return OK;
 }
