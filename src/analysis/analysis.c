@@ -62,6 +62,8 @@ static const struct {
     {"structure_factor_cuts", .alone = derive_structure_change},
     {"quartic_displacement", .with = derive_non_gaussian},
     {"overlap_square", .with = derive_susceptibility},
+    {"stress", .alone = derive_start_up},
+    {"stress_harmonics", .alone = derive_harmonics},
     {"contact_stress", .with = derive_contact_stress},
     {"contact_directions", .alone = derive_contact_angles},
     {"stress_wandering", .with = derive_viscosity},

@@ -26,6 +26,8 @@
 //   _factorisation_window and _scaled, series                                  of the same two
 //   non_gaussian_parameter, a series     of squared_displacement and quartic_displacement
 //   four_point_susceptibility, a series                           of overlap and overlap_square
+//   overshoot_strain, _stress, _height    of stress against strain, where there is an overshoot
+//   third_harmonic, fifth_harmonic        of stress_harmonics
 //   shear_stress_contact, normal_stress_difference_contact, pressure_contact   of contact_stress
 //   contact_angle, a series                                        of contact_directions
 //   zero_shear_viscosity and _window; viscosity, a series          of stress_wandering

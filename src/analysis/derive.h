@@ -29,6 +29,8 @@ Status derive_scaled(Results *results, const ResultSeries *scattering);
 Status derive_kohlrausch(Results *results, const ResultSeries *scattering);
 Status derive_normalised_scattering(Results *results, const ResultSeries *ends);
 Status derive_non_gaussian(Results *results, const ResultSeries *quartic, const System *system);
+Status derive_start_up(Results *results, const ResultSeries *stress);
+Status derive_harmonics(Results *results, const ResultSeries *moduli);
 Status derive_contact_stress(Results *results, const ResultSeries *series, const System *system);
 Status derive_contact_angles(Results *results, const ResultSeries *series);
 Status derive_viscosity(Results *results, const ResultSeries *wandering, const System *system);

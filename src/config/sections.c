@@ -149,7 +149,7 @@ static const struct {
                   "spheres"},
     {"itt", "this version has no theory under shear; theory has it at rest"},
     {"closure", "where the theory takes its structure from is called structure"},
-    {"stress", "this version does not measure it; pressure is there"},
+    {"shear_stress", "it is called stress"},
     {"coherent_scattering", "it is called collective_scattering"},
     {"N", "the number of particles is called particles"},
     {"phi", "the packing fraction is called packing_fraction"},

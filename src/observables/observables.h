@@ -46,6 +46,9 @@ struct ObservableKind {
     Status (*see)(Observer *observer, int64_t tick, const State *state, const Tally *tally);
     void (*archive)(Observer *observer, Archive *archive);
     Status (*write)(const Observer *observer, const State *state, Results *results, size_t replica);
+    // Standard error of its main number so far, over the number, from stretches of the time so far;
+    // infinite where that is too little to tell. NULL where a stage cannot end by it (`until`).
+    double (*relative_error)(const Observer *observer);
     void (*free)(Observer *observer);
     size_t (*memory)(const Settings *settings, const System *system, const Clock *clock); // bytes
 };

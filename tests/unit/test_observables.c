@@ -172,16 +172,23 @@ START_TEST(random_walk_agrees_with_its_slow_twin_and_diffuses) {
 }
 END_TEST
 
-// The first of some systems in which it can be measured.
-static System system_with(const ObservableKind *kind, int64_t particles) {
+// The first of some systems, and of some ways to be there, in which it can be measured.
+static System system_with(const ObservableKind *kind, int64_t particles, Clock *clock) {
+    static const Drive steady = {.flow = {.rate = 0.5}};
+    static const Drive oscillating = {.flow = {.oscillation = {0.1, 0.125}}}; // 20 steps a cycle
+    static const struct {
+        bool flies;
+        const Drive *drive;
+    } ways[] = {{true, NULL}, {false, NULL}, {true, &steady}, {true, &oscillating}};
     const System systems[] = {system_of(2, particles, 0.4, 2), oriented_system(particles, 2),
                               oriented_system(particles, 1), soft_system(particles, 36)};
-    Clock clock = clock_of(600, 5);
+    enum { WAYS = sizeof ways / sizeof *ways };
     const Settings settings = settings_of(&kind->options);
-    for (size_t i = 0; i < 2 * sizeof systems / sizeof *systems; i++) {
-        clock.flies = i % 2 == 0; // some look at flights, some at trials
-        const System *system = &systems[i / 2];
-        if (!kind->check || kind->check(&settings, system, &clock) == OK) return *system;
+    for (size_t i = 0; i < WAYS * sizeof systems / sizeof *systems; i++) {
+        clock->flies = ways[i % WAYS].flies;
+        clock->drive = ways[i % WAYS].drive;
+        const System *system = &systems[i / WAYS];
+        if (!kind->check || kind->check(&settings, system, clock) == OK) return *system;
     }
     ck_abort_msg("%s can be measured nowhere: %s", kind->name, status_sentence());
 }
@@ -189,9 +196,9 @@ static System system_with(const ObservableKind *kind, int64_t particles) {
 // Every observable, its state at half time saved and loaded into a fresh one.
 START_TEST(an_observer_saved_and_loaded_goes_on_bit_for_bit) {
     const ObservableKind *kind = observable_kinds[_i];
-    System system = system_with(kind, 90);
+    Clock clock = clock_of(600, 5);
+    System system = system_with(kind, 90, &clock);
     State *state = new_state(&system);
-    const Clock clock = clock_of(600, 5);
     const Settings settings = settings_of(&kind->options);
     Observer *straight = new_observer(kind, &settings, state, &clock);
     Observer *first = new_observer(kind, &settings, state, &clock);
@@ -221,9 +228,9 @@ END_TEST
 
 START_TEST(memory_is_estimated_within_a_factor_of_two_of_what_is_saved) {
     const ObservableKind *kind = observable_kinds[_i];
-    System system = system_with(kind, 2000);
+    Clock clock = clock_of(60000, 5);
+    System system = system_with(kind, 2000, &clock);
     State *state = new_state(&system);
-    const Clock clock = clock_of(60000, 5);
     const Settings settings = settings_of(&kind->options);
     Observer *observer = new_observer(kind, &settings, state, &clock);
     Archive saved = archive_writer();

@@ -105,12 +105,118 @@ START_TEST(pairs_press_along_the_line_between_them) {
 }
 END_TEST
 
+// Lets an observer look whenever it wants to at what `exchanged` says was exchanged by then.
+static void tell(Observer *observer, const State *state, double (*exchanged)(double time)) {
+    const ObservableKind *kind = observer->kind;
+    const Clock *clock = &observer->clock;
+    for (int64_t tick = kind->next(observer, -1); tick <= clock->ticks;
+         tick = kind->next(observer, tick)) {
+        const double xy = -exchanged((double)tick * clock->tick) * box_volume(&state->box) *
+                          clock->flight_time / clock->tick;
+        const Tally tally = {.exchange = {{3 * xy, xy}, {xy, xy}}};
+        ck_assert_int_eq(kind->see(observer, tick, state, &tally), OK);
+    }
+}
+
+// A stress that overshoots, and its integral over time.
+static const double RATE = 0.1;
+static double overshooting(double g) {
+    return 2 * (1 - exp(-20 * g)) + 30 * g * exp(-10 * g);
+}
+static double start_up(double time) {
+    const double g = RATE * time;
+    const double rise = 2 * (g - (1 - exp(-20 * g)) / 20);
+    const double hump = 30 * ((1 - exp(-10 * g)) / 100 - g * exp(-10 * g) / 10);
+    return (rise + hump) / RATE;
+}
+
+START_TEST(start_up_shows_its_overshoot) {
+    static const Drive steady = {.flow = {.rate = 0.1}};
+    System system = system_of(2, 50, 0.3, 1);
+    State *state = new_state(&system);
+    Clock clock = flying_clock(40000);
+    clock.tick = 0.0005;
+    clock.drive = &steady;
+    Settings settings = settings_of(&observable_stress.options);
+    set_number(&settings, &observable_stress.options, "windows", 400);
+    Observer *observer = new_observer(&observable_stress, &settings, state, &clock);
+    tell(observer, state, start_up);
+    Results *results = written(observer, state);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    const double mean = start_up(20) / 20;
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "shear_stress") / mean, 1, 1e-12);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "shear_viscosity") * RATE / mean, 1,
+                            1e-12);
+    // sigma_xx = 3 sigma_xy, sigma_yy = sigma_xy, as it was told.
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "normal_stress_difference") / mean, 2,
+                            1e-12);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "mean_pressure"),
+                            system_number_density(&system) - 2 * mean, 1e-9);
+    double top = 0;
+    for (double g = 0; g < 1; g += 1e-4) {
+        if (overshooting(g) > overshooting(top)) top = g;
+    }
+    // The curve is steeper before its top than after it, the parabola is not.
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "overshoot_strain"), top, 0.01);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "overshoot_stress"), overshooting(top),
+                            0.03);
+    double later = 0; // windows of the later half
+    for (double g = 1.0025; g < 2; g += 0.005) later += overshooting(g) / 200;
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "overshoot_height"),
+                            overshooting(top) / later - 1, 0.01);
+    results_free(results);
+    observer->kind->free(observer);
+    state_free(state);
+}
+END_TEST
+
+// 0.1 (5 sin wt + 2 cos wt + 0.7 sin 3wt - 0.2 cos 5wt), integrated.
+static const double FREQUENCY = 0.3;
+static double oscillation(double time) {
+    const double w = FREQUENCY, p = w * time;
+    return 0.1 / w * (-5 * cos(p) + 2 * sin(p) - 0.7 / 3 * cos(3 * p) - 0.2 / 5 * sin(5 * p));
+}
+
+START_TEST(harmonics_of_an_oscillation_are_found) {
+    static const Drive oscillating = {.flow = {.oscillation = {0.1, 0.3}}};
+    System system = system_of(2, 50, 0.3, 1);
+    State *state = new_state(&system);
+    Clock clock = flying_clock(300000);
+    clock.tick = 0.0005;
+    clock.drive = &oscillating;
+    const Settings settings = settings_of(&observable_oscillatory_stress.options);
+    ck_assert_int_eq(observable_oscillatory_stress.check(&settings, &system, &clock), OK);
+    Observer *observer = new_observer(&observable_oscillatory_stress, &settings, state, &clock);
+    tell(observer, state, oscillation);
+    Results *results = written(observer, state);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "storage_modulus"), 5, 0.01);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "loss_modulus"), 2, 0.01);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "third_harmonic"), 0.7 / sqrt(29),
+                            0.002);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "fifth_harmonic"), 0.2 / sqrt(29),
+                            0.002);
+    const ResultSeries *cycle = series_of(results, "quiescent", "stress_cycle");
+    for (size_t k = 0; k < cycle->size; k++) {
+        const double p = 2 * PI * cycle->axis[0].values[k];
+        const double stress = 0.1 * (5 * sin(p) + 2 * cos(p) + 0.7 * sin(3 * p) - 0.2 * cos(5 * p));
+        // Of a few cycles the windows are not centred on the phases: by half of one at most.
+        ck_assert_double_eq_tol(cycle->values[k], stress, 0.7 * PI / 64);
+    }
+    results_free(results);
+    observer->kind->free(observer);
+    state_free(state);
+}
+END_TEST
+
 static Suite *suite(void) {
     Suite *s = suite_create("stress");
     TCase *c = tcase_create("stress");
     tcase_add_test(c, steady_stress_wanders_as_the_square_of_time);
     tcase_add_test(c, viscosity_is_the_slope_of_the_wandering);
     tcase_add_loop_test(c, pairs_press_along_the_line_between_them, 0, 8);
+    tcase_add_test(c, start_up_shows_its_overshoot);
+    tcase_add_test(c, harmonics_of_an_oscillation_are_found);
     suite_add_tcase(s, c);
     return s;
 }

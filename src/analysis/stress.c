@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What stresses under shear are made of: the overshoot of a start-up (Weysser, thesis, ch. 5.3) and
+// how far from linear the response to an oscillation is (ch. 6.2). Both are functions of means over
+// replicas, so each replica is given the jackknife's pseudo-value.
+#include "analysis/derive.h"
+#include "base/memory.h"
+#include "numerics/fit.h"
+
+#include <math.h>
+#include <string.h>
+
+// The shear stress against strain, a mean over replicas.
+typedef struct StartUp {
+    const double *strain;
+    double *stress; // [count]
+    size_t count;
+} StartUp;
+
+typedef struct Overshoot {
+    double strain, peak, steady;
+} Overshoot;
+
+static const double NEAR_PEAK = 0.93; // of the highest window: what the parabola is laid through
+enum { PEAK_LEAST = 5, ALL = -1 };
+
+static void mean_without(const ResultSeries *series, size_t replicas, int64_t left_out,
+                         StartUp *mean) {
+    for (size_t k = 0; k < mean->count; k++) {
+        double sum = 0, number = 0;
+        for (size_t r = 0; r < replicas; r++) {
+            const double value = series->values[r * series->size + k]; // the first row is sigma_xy
+            if ((int64_t)r == left_out || !isfinite(value)) continue;
+            sum += value;
+            number++;
+        }
+        mean->stress[k] = sum / number;
+    }
+}
+
+// Windows [begin, end) round the highest whose stress is near its, seen from either side.
+static void near_peak(const StartUp *mean, double sign, size_t *begin, size_t *end) {
+    size_t top = 0;
+    for (size_t k = 1; k < mean->count; k++) {
+        if (sign * mean->stress[k] > sign * mean->stress[top]) top = k;
+    }
+    const double least = NEAR_PEAK * sign * mean->stress[top];
+    *begin = *end = top;
+    while (*begin > 0 && sign * mean->stress[*begin - 1] > least) --*begin;
+    while (*end < mean->count && sign * mean->stress[*end] > least) ++*end;
+}
+
+// The windows of the peak are those of the mean over all replicas.
+static Overshoot overshoot_of(const StartUp *mean, size_t begin, size_t end) {
+    Overshoot overshoot = {0};
+    const size_t half = mean->count / 2;
+    for (size_t k = half; k < mean->count; k++) overshoot.steady += mean->stress[k];
+    overshoot.steady /= (double)(mean->count - half);
+    fit_parabola_top(mean->strain + begin, mean->stress + begin, end - begin, &overshoot.strain,
+                     &overshoot.peak);
+    return overshoot;
+}
+
+static Status put_overshoot(Results *results, const ResultSeries *series, size_t replica,
+                            Overshoot all, Overshoot without) {
+    const size_t n = results->replicas;
+    const char *stage = series->stage;
+    TRY(results_put_scalar(results, stage, "overshoot_strain", "",
+                           "Where the shear stress is highest: top of a parabola through the "
+                           "windows within 7 % of the highest.",
+                           replica, pseudo_value(n, all.strain, without.strain)));
+    TRY(results_put_scalar(results, stage, "overshoot_stress", series->unit,
+                           "The shear stress there.", replica,
+                           pseudo_value(n, all.peak, without.peak)));
+    return results_put_scalar(
+        results, stage, "overshoot_height", "",
+        "How far the highest shear stress is above that of the later half "
+        "of the stage, over the latter.",
+        replica, pseudo_value(n, all.peak / all.steady - 1, without.peak / without.steady - 1));
+}
+
+static Status derive_overshoot(Results *results, const ResultSeries *series, StartUp *mean) {
+    size_t begin = 0, end = 0;
+    mean_without(series, results->replicas, ALL, mean);
+    const double sign = mean->stress[mean->count - 1] < 0 ? -1 : 1;
+    near_peak(mean, sign, &begin, &end);
+    // Before it the stress must have been seen to rise, after it to fall.
+    if (begin == 0 || end >= mean->count / 2 || end - begin < PEAK_LEAST) return OK;
+    const Overshoot all = overshoot_of(mean, begin, end);
+    for (size_t r = 0; r < results->replicas; r++) {
+        mean_without(series, results->replicas, (int64_t)r, mean);
+        const Overshoot without = results->replicas < 2 ? all : overshoot_of(mean, begin, end);
+        TRY(put_overshoot(results, series, r, all, without));
+    }
+    return OK;
+}
+
+Status derive_start_up(Results *results, const ResultSeries *series) {
+    const ResultAxis *axis = &series->axis[1];
+    if (strcmp(axis->name, "strain") != 0 || axis->count < 4 * PEAK_LEAST) return OK;
+    StartUp mean = {.strain = axis->values, .count = axis->count};
+    TRY(NEW_ARRAY(mean.stress, mean.count));
+    const Status status = derive_overshoot(results, series, &mean);
+    memory_free(mean.stress);
+    return status;
+}
+
+// Amplitude of a harmonic over that of the first, from the moduli of all replicas but one.
+static double harmonic_ratio(const ResultSeries *series, size_t replicas, int64_t left_out,
+                             size_t harmonic) {
+    const size_t harmonics = series->axis[1].count;
+    double square[2] = {0};
+    for (size_t part = 0; part < 2; part++) {
+        double sum[2] = {0};
+        for (size_t r = 0; r < replicas; r++) {
+            if ((int64_t)r == left_out) continue;
+            const double *moduli = series->values + r * series->size + part * harmonics;
+            sum[0] += moduli[0];
+            sum[1] += moduli[harmonic - 1];
+        }
+        for (int k = 0; k < 2; k++) square[k] += sum[k] * sum[k];
+    }
+    return sqrt(square[1] / square[0]);
+}
+
+Status derive_harmonics(Results *results, const ResultSeries *series) {
+    static const struct {
+        size_t harmonic;
+        const char *name, *about;
+    } ratios[] = {
+        {3, "third_harmonic", "Amplitude of the third harmonic of the stress over the first."},
+        {5, "fifth_harmonic", "Amplitude of the fifth harmonic of the stress over the first."}};
+    const size_t n = results->replicas;
+    for (size_t k = 0; k < sizeof ratios / sizeof *ratios; k++) {
+        const double all = harmonic_ratio(series, n, ALL, ratios[k].harmonic);
+        for (size_t r = 0; r < n; r++) {
+            const double without =
+                n < 2 ? all : harmonic_ratio(series, n, (int64_t)r, ratios[k].harmonic);
+            TRY(results_put_scalar(results, series->stage, ratios[k].name, "", ratios[k].about, r,
+                                   pseudo_value(n, all, without)));
+        }
+    }
+    return OK;
+}

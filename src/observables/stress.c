@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shear stress, normal stress differences and pressure from the momentum that collisions exchange
+// (Weysser, thesis, ch. 5): over the stage, and in windows of it, whose axis is the strain where
+// the shear is steady and the time where it is not. A stage that begins with the shear shows the
+// overshoot; one that follows it gives the flow curve.
+#include "base/memory.h"
+#include "observables/looks.h"
+#include "observables/put.h"
+#include "observables/stresses.h"
+#include "observables/temperature.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct StressSettings {
+    int64_t windows;
+} StressSettings;
+
+static const Option rows[] = {
+    {.name = "windows",
+     .type = OPTION_INTEGER,
+     .offset = offsetof(StressSettings, windows),
+     .fallback = 100,
+     .least = 1,
+     .most = 1000000,
+     .unit = "",
+     .about = "Windows of strain, or of time, over each of which the stress is averaged: at most "
+              "so many, at least half of it."},
+};
+
+typedef struct Stress {
+    Observer observer;
+    int64_t period; // ticks of a window
+    size_t windows, done;
+    double before[3][3]; // exchanged when the window began
+    double *stresses;    // [windows][STRESSES_MOST]
+} Stress;
+
+static int64_t period_for(const Settings *settings, const Clock *clock) {
+    return looks_period(clock, ((const StressSettings *)settings->bytes)->windows);
+}
+
+static Status check(const Settings *settings, const System *system, const Clock *clock) {
+    (void)settings;
+    (void)system;
+    if (clock->flies) return OK;
+    return status_fail(BAD_DATA, "stress: Monte Carlo counts no collisions, from which it is "
+                                 "measured; contact_stress gives it from configurations");
+}
+
+static void discard(Observer *observer) {
+    memory_free(((Stress *)observer)->stresses);
+    memory_free(observer);
+}
+
+static Status create(Observer **out, const Settings *settings, const State *state,
+                     const Clock *clock) {
+    (void)state;
+    Stress *self = NULL;
+    TRY(NEW(self));
+    self->observer = (Observer){.kind = &observable_stress, .clock = *clock};
+    self->period = period_for(settings, clock);
+    self->windows = (size_t)looks_count(clock, self->period);
+    const Status status = NEW_ARRAY(self->stresses, self->windows * STRESSES_MOST);
+    if (status != OK) {
+        discard(&self->observer);
+        return status;
+    }
+    *out = &self->observer;
+    return OK;
+}
+
+static int64_t next(const Observer *observer, int64_t after) {
+    return looks_next(&observer->clock, ((const Stress *)observer)->period, after);
+}
+
+static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
+    Stress *self = (Stress *)observer;
+    const size_t window = (size_t)(tick / self->period) - 1;
+    ASSERT(window < self->windows);
+    double exchange[3][3];
+    for (int a = 0; a < 3; a++) {
+        for (int b = 0; b < 3; b++) exchange[a][b] = tally->exchange[a][b] - self->before[a][b];
+    }
+    const double temperature = observer->clock.thermostatted ? 1 : temperature_relative(state);
+    stresses_of(exchange, (double)state->count * temperature, &state->box,
+                (double)self->period * observer->clock.flight_time,
+                self->stresses + window * STRESSES_MOST);
+    memcpy(self->before, tally->exchange, sizeof self->before);
+    self->done = window + 1;
+    return OK;
+}
+
+static const uint64_t STRESS_TAG = 0x5354524553303031; // "STRES001"
+
+static void archive(Observer *observer, Archive *archive) {
+    Stress *self = (Stress *)observer;
+    uint64_t done = self->done;
+    archive_tag(archive, STRESS_TAG);
+    archive_u64(archive, &done, 1);
+    archive_require(archive, done <= self->windows, "it has a window of stress too many");
+    archive_f64(archive, &self->before[0][0], 9);
+    archive_f64(archive, self->stresses, self->windows * STRESSES_MOST);
+    if (archive_status(archive, false) == OK) self->done = (size_t)done;
+}
+
+// Of the windows [begin, end).
+static double mean_of(const Stress *self, size_t stress, size_t begin, size_t end) {
+    double sum = 0;
+    for (size_t w = begin; w < end; w++) sum += self->stresses[w * STRESSES_MOST + stress];
+    return sum / (double)(end - begin);
+}
+
+// Windows are put together into this many stretches, long enough not to know of each other.
+enum { STRETCHES = 16 };
+
+static double relative_error(const Observer *observer) {
+    const Stress *self = (const Stress *)observer;
+    const size_t length = self->done / STRETCHES;
+    if (length == 0) return INFINITY;
+    double sum = 0, squares = 0;
+    for (size_t k = 0; k < STRETCHES; k++) {
+        const double mean = mean_of(self, 0, k * length, (k + 1) * length);
+        sum += mean;
+        squares += mean * mean;
+    }
+    const double mean = sum / STRETCHES;
+    const double variance = fmax(squares / STRETCHES - mean * mean, 0) / (STRETCHES - 1);
+    return sqrt(variance) / fabs(mean);
+}
+
+static double steady_rate(const Clock *clock) {
+    return clock->drive ? clock->drive->flow.rate : 0;
+}
+
+static Status put_scalars(const Stress *self, const State *state, Results *results,
+                          size_t replica) {
+    const Observer *observer = &self->observer;
+    const int dimension = state->box.dimension;
+    for (size_t s = 0; s < stress_count(dimension); s++) {
+        TRY(observer_put_scalar(observer, stress_names[s], stress_unit(dimension), stress_abouts[s],
+                                results, replica, mean_of(self, s, 0, self->done)));
+    }
+    const double rate = steady_rate(&observer->clock);
+    if (rate == 0) return OK;
+    return observer_put_scalar(observer, "shear_viscosity", dimension == 2 ? "kT/D0" : "kT/(d D0)",
+                               "sigma_xy/shear_rate, of the collisions; the solvent's own is not "
+                               "in it.",
+                               results, replica, mean_of(self, 0, 0, self->done) / rate);
+}
+
+static Status put_windows(const Stress *self, const State *state, double *values, double *axis,
+                          Results *results, size_t replica) {
+    const Clock *clock = &self->observer.clock;
+    const double rate = steady_rate(clock), per_tick = clock->tick * (rate != 0 ? fabs(rate) : 1);
+    const size_t kinds = stress_count(state->box.dimension);
+    for (size_t w = 0; w < self->windows; w++) {
+        axis[w] = ((double)w + 0.5) * (double)self->period * per_tick;
+        for (size_t s = 0; s < kinds; s++) {
+            values[s * self->windows + w] =
+                w < self->done ? self->stresses[w * STRESSES_MOST + s] : (double)NAN;
+        }
+    }
+    ResultSeries shape = {
+        .about = "Stress in windows of the stage, at their middles; strain is counted from the "
+                 "start of the stage.",
+        .axes = 2,
+        .axis = {{.name = "stress", .unit = "", .count = kinds, .labels = stress_names},
+                 {.name = rate != 0 ? "strain" : "time",
+                  .unit = rate != 0 ? "" : clock->unit,
+                  .count = self->windows,
+                  .values = axis}}};
+    strcpy(shape.unit, stress_unit(state->box.dimension));
+    return observer_put_series(&self->observer, "stress", &shape, results, replica, values);
+}
+
+static Status write(const Observer *observer, const State *state, Results *results,
+                    size_t replica) {
+    const Stress *self = (const Stress *)observer;
+    double *values = NULL, *axis = NULL;
+    Status status = put_scalars(self, state, results, replica);
+    if (status == OK) status = NEW_ARRAY(values, self->windows * STRESSES_MOST);
+    if (status == OK) status = NEW_ARRAY(axis, self->windows);
+    if (status == OK) status = put_windows(self, state, values, axis, results, replica);
+    memory_free(values);
+    memory_free(axis);
+    return status;
+}
+
+static size_t memory(const Settings *settings, const System *system, const Clock *clock) {
+    (void)system;
+    const int64_t windows = looks_count(clock, period_for(settings, clock));
+    return sizeof(Stress) + (size_t)windows * STRESSES_MOST * sizeof(double);
+}
+
+const ObservableKind observable_stress = {
+    .name = "stress",
+    .about = "Shear stress, normal stress differences and pressure from the momentum that "
+             "collisions exchange, over the stage and in windows of it.",
+    .of_motion = true,
+    .options = {rows, sizeof rows / sizeof *rows, sizeof(StressSettings)},
+    .check = check,
+    .create = create,
+    .next = next,
+    .see = see,
+    .archive = archive,
+    .write = write,
+    .relative_error = relative_error,
+    .free = discard,
+    .memory = memory,
+};
