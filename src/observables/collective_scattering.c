@@ -40,7 +40,7 @@ static const Option rows[] = {
      .unit = "",
      .about = "Most wave vectors in a shell, q and -q counted once; 0 takes all."},
     LAG_OPTIONS_OF(CollectiveSettings, lags, 10, 16), // a look costs some intervals of the engine
-    WAITING_OPTION(CollectiveSettings, lags),
+    WAITING_OPTIONS(CollectiveSettings, lags),
 };
 
 typedef struct Collective {
@@ -92,6 +92,7 @@ static Status check(const Settings *settings_, const System *system, const Clock
     const CollectiveSettings *settings = settings_in(settings_);
     const Box box = system_box(system);
     Shell shells[OPTION_LIST_SIZE];
+    TRY(wave_vectors_check_rest("collective_scattering", "advected_scattering", clock));
     TRY(wave_numbers_check("collective_scattering", &settings->wave_numbers, system));
     const size_t count = shells_of(settings, system, shells);
     for (size_t k = 1; k < count; k++) {

@@ -14,6 +14,7 @@ void wave_vector_of(const Box *box, const LatticeVector *vector, double q[3]) {
     for (int a = 0; a < 3; a++) {
         q[a] = a < box->dimension ? 2 * PI * vector->n[a] / box->edge[a] : 0;
     }
+    q[1] -= q[0] * (box->offset / box->edge[1]);
 }
 
 static size_t table_size(int32_t most) {
@@ -73,6 +74,14 @@ static void add_block(const DensityModes *modes, double *real, double *imaginary
     kernels[cpu_path()](modes, real, imaginary);
 }
 
+// Fractions along the edges of the tilted box.
+static void lean(const DensityModes *modes, const Box *box) {
+    const double tilt = box->offset / box->edge[0];
+    double *x = modes->table[0].turns;
+    const double *y = modes->table[1].turns;
+    for (size_t lane = 0; lane < MODES_BLOCK; lane++) x[lane] -= tilt * y[lane];
+}
+
 void density_modes_add(DensityModes *modes, const Box *box, double *const position[3], size_t begin,
                        size_t end, double *real, double *imaginary) {
     for (size_t block = begin; block < end; block += MODES_BLOCK) {
@@ -84,6 +93,7 @@ void density_modes_add(DensityModes *modes, const Box *box, double *const positi
                 table->turns[lane] = present ? position[a][block + lane] / box->edge[a] : 0;
             }
         }
+        lean(modes, box);
         add_block(modes, real, imaginary);
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fourier components of the density, rho(q) = sum over particles of exp(i q.r), on vectors of the
-// reciprocal lattice of the box.
+// reciprocal lattice of the box. Strain tilts it: q_y falls by strain q_x, the strain being reduced
+// to what the offset of the box is.
 #pragma once
 
 #include "base/status.h"
@@ -9,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// q = 2 pi (n[0]/L_x, n[1]/L_y, n[2]/L_z).
+// q = 2 pi (n[0]/L_x, n[1]/L_y - n[0]/L_x offset/L_y, n[2]/L_z).
 typedef struct LatticeVector {
     int32_t n[3];
 } LatticeVector;
@@ -19,7 +20,8 @@ void wave_vector_of(const Box *box, const LatticeVector *vector, double q[3]); /
 // Particles at a time: their powers of exp(2 pi i x/L) lie in `table` while all vectors are run.
 enum { MODES_BLOCK = 64 };
 
-// Powers 0..most of exp(2 pi i x/L) of one axis: cosine[n][MODES_BLOCK], then sine[n][MODES_BLOCK].
+// Powers 0..most of exp(2 pi i x/L) of one axis, x/L along the edge of a tilted box:
+// cosine[n][MODES_BLOCK], then sine[n][MODES_BLOCK].
 typedef struct PowerTable {
     int32_t most;
     double *turns, *present; // [MODES_BLOCK]: x/L, and 1 where there is a particle, else 0

@@ -16,10 +16,10 @@ Status displacements_make(Displacements *d, const State *state, const Lags *lags
         d->begin[s + 1] = d->begin[s] + whole_lanes(d->population[s]);
     }
     d->lanes = d->begin[d->species_count];
-    const size_t frame = (size_t)d->dimension * d->lanes;
-    TRY(history_make(&d->history, lags, frame));
-    TRY(NEW_ARRAY(d->now, frame));
-    return NEW_ARRAY(d->moved, frame);
+    const size_t coordinates = (size_t)d->dimension * d->lanes;
+    TRY(history_make(&d->history, lags, coordinates + 1));
+    TRY(NEW_ARRAY(d->now, coordinates + 1));
+    return NEW_ARRAY(d->moved, coordinates);
 }
 
 void displacements_clear(Displacements *d) {
@@ -32,7 +32,7 @@ size_t displacements_memory(const System *system, const Lags *lags) {
     size_t counts[SPECIES_MOST], lanes = 0;
     system_counts(system, counts);
     for (size_t s = 0; s < system->species_count; s++) lanes += whole_lanes(counts[s]);
-    const size_t frame = (size_t)system->dimension * lanes;
+    const size_t frame = (size_t)system->dimension * lanes + 1;
     return history_memory(lags, frame) + 2 * frame * sizeof(double);
 }
 
@@ -49,12 +49,16 @@ void displacements_look(Displacements *d, const State *state) {
                 now[i] = state_unfolded(state, a, particle++);
         }
     }
+    d->now[(size_t)d->dimension * d->lanes] = box_strain(&state->box);
 }
 
 bool displacements_ended(Displacements *d, int64_t tick, size_t k, size_t *row) {
     const double *then = history_begun(&d->history, tick, k, row);
     if (!then) return false;
-    for (size_t i = 0; i < d->history.width; i++) d->moved[i] = d->now[i] - then[i];
+    const size_t coordinates = (size_t)d->dimension * d->lanes;
+    for (size_t i = 0; i < coordinates; i++) d->moved[i] = d->now[i] - then[i];
+    const double strain = d->now[coordinates] - then[coordinates], *y = d->now + d->lanes;
+    for (size_t i = 0; strain != 0 && i < d->lanes; i++) d->moved[i] -= strain * y[i];
     return true;
 }
 

@@ -2,7 +2,8 @@
 // Displacements of all particles since the time origins, species by species, in the layout that
 // vector units want: [dimension][lane], the particles of each species from a multiple of LANES on;
 // the lanes that are left over stay at zero. Coordinates are unfolded; the drift of the centre of
-// mass is left in.
+// mass is left in. Under shear they are the non-affine displacements (Weysser, thesis, eq. 5.64):
+// what the flow has done since the origin, strain times y as it is now, is taken from x.
 #pragma once
 
 #include "numerics/turn.h"
@@ -15,7 +16,8 @@ typedef struct Displacements {
     size_t population[SPECIES_MOST];
     size_t begin[SPECIES_MOST + 1]; // lanes of species s: [begin[s], begin[s + 1])
     size_t lanes;                   // of one axis
-    double *now, *moved;            // [dimension][lanes]
+    double *now;                    // [dimension][lanes], then the strain
+    double *moved;                  // [dimension][lanes]
 } Displacements;
 
 Status displacements_make(Displacements *d, const State *state, const Lags *lags);

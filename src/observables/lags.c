@@ -83,6 +83,19 @@ int64_t lags_next(const Lags *lags, const Clock *clock, int64_t after) {
     return next <= clock->ticks ? next : INT64_MAX;
 }
 
+// The steady shear rate of the stage, in the clock's unit of time; 0 without.
+static double steady_rate(const Clock *clock) {
+    return clock->drive ? fabs(clock->drive->flow.rate) : 0;
+}
+
+static OptionReals waits_chosen(const LagSettings *settings, const Clock *clock) {
+    const double rate = steady_rate(clock);
+    if (settings->waiting_strain.count == 0 || rate == 0) return settings->waiting_times;
+    OptionReals waits = settings->waiting_strain;
+    for (int64_t w = 0; w < waits.count; w++) waits.values[w] /= rate;
+    return waits;
+}
+
 // Whole steps after the stage began; a time within a step of the one before is left out.
 static void add_waits(Lags *lags, const OptionReals *times, const Clock *clock) {
     for (int64_t w = 0; w < times->count; w++) {
@@ -95,11 +108,13 @@ static void add_waits(Lags *lags, const OptionReals *times, const Clock *clock) 
 }
 
 Lags lags_chosen(const LagSettings *settings, const Clock *clock) {
-    const bool many = settings->waiting_times.count == 0;
+    const OptionReals waits = waits_chosen(settings, clock);
+    const bool many = waits.count == 0;
     // Lags from one origin need not end at another.
     const int64_t origins = many ? settings->origins : clock->ticks;
     Lags lags = lags_of(clock, settings->first, settings->last, settings->per_decade, origins);
-    if (!many) add_waits(&lags, &settings->waiting_times, clock);
+    if (!many) add_waits(&lags, &waits, clock);
+    lags.by_strain = settings->waiting_strain.count > 0;
     return lags;
 }
 
@@ -107,7 +122,7 @@ static Status check_waits(const char *observable, const OptionReals *waits, cons
     const double time = clock->tick * (double)clock->ticks;
     for (int64_t w = 0; w < waits->count; w++) {
         if (w > 0 && !(waits->values[w] > waits->values[w - 1])) {
-            return status_fail(BAD_DATA, "%s: waiting_times must ascend, but %g follows %g",
+            return status_fail(BAD_DATA, "%s: waiting times must ascend, but %g follows %g",
                                observable, waits->values[w], waits->values[w - 1]);
         }
         if (!(waits->values[w] < time)) {
@@ -120,10 +135,27 @@ static Status check_waits(const char *observable, const OptionReals *waits, cons
     return OK;
 }
 
+static Status check_strains(const char *observable, const LagSettings *settings,
+                            const Clock *clock) {
+    if (settings->waiting_strain.count == 0) return OK;
+    if (settings->waiting_times.count > 0)
+        return status_fail(BAD_DATA,
+                           "%s: waiting_times and waiting_strain are two ways to say the same; "
+                           "give one",
+                           observable);
+    if (steady_rate(clock) > 0) return OK;
+    return status_fail(BAD_DATA,
+                       "%s: waiting_strain needs a steady shear_rate, which the stage '%s' does "
+                       "not have; give waiting_times",
+                       observable, clock->stage);
+}
+
 Status lags_check(const char *observable, const LagSettings *settings, const Clock *clock) {
     const double time = clock->tick * (double)clock->ticks;
     const double last = settings->last > 0 ? settings->last : time / 3;
-    TRY(check_waits(observable, &settings->waiting_times, clock));
+    TRY(check_strains(observable, settings, clock));
+    const OptionReals waits = waits_chosen(settings, clock);
+    TRY(check_waits(observable, &waits, clock));
     if (last > time * (1 + 1e-9)) {
         return status_fail(BAD_DATA,
                            "%s: times.last = %g is longer than the stage '%s' of %g %s; make the "
@@ -152,9 +184,12 @@ void lags_times(const Lags *lags, const Clock *clock, double *times) {
 size_t lags_axes(const Lags *lags, const Clock *clock, double *values, ResultAxis *axes) {
     size_t count = 0;
     if (lags->waits > 0) {
-        for (size_t w = 0; w < lags->waits; w++) values[w] = (double)lags->wait[w] * clock->tick;
-        axes[count++] = (ResultAxis){
-            .name = "waiting_time", .unit = clock->unit, .count = lags->waits, .values = values};
+        const double unit = lags->by_strain ? clock->tick * steady_rate(clock) : clock->tick;
+        for (size_t w = 0; w < lags->waits; w++) values[w] = (double)lags->wait[w] * unit;
+        axes[count++] = (ResultAxis){.name = lags->by_strain ? "waiting_strain" : "waiting_time",
+                                     .unit = lags->by_strain ? "" : clock->unit,
+                                     .count = lags->waits,
+                                     .values = values};
     }
     double *times = values + lags->waits;
     lags_times(lags, clock, times);

@@ -5,8 +5,9 @@
 // they end where another origin is and need no look of their own. A lag longer than a step is a
 // whole number of steps: a walk by whole intervals has no sub-interval phase.
 //
-// What ages is seen from given origins instead, waiting times after the stage began, each by
-// itself: sums then have a row for every waiting time and lag, else for every lag.
+// What ages is seen from given origins instead, waiting times after the stage began or, under
+// steady shear, waiting strains, each by itself: sums then have a row for every waiting time and
+// lag, else for every lag.
 #pragma once
 
 #include "observables/observables.h"
@@ -20,6 +21,7 @@ typedef struct Lags {
     int64_t ticks[LAGS_MOST]; // ascending
     size_t waits;             // waiting times; 0: the origins are evenly spaced
     int64_t wait[OPTION_LIST_SIZE];
+    bool by_strain; // they were given as strains
 } Lags;
 
 // Times in the clock's unit; a `first` of 0 is one tick, a `last` of 0 a third of the stage.
@@ -30,7 +32,8 @@ Lags lags_of(const Clock *clock, double first, double last, int64_t per_decade, 
 typedef struct LagSettings {
     double first, last;
     int64_t per_decade, origins;
-    OptionReals waiting_times; // empty where the observable has no such key
+    OptionReals waiting_times;  // empty where the observable has no such key
+    OptionReals waiting_strain; // likewise
 } LagSettings;
 
 // Their rows of an option table, for the member `lags` of the struct `Type`, with the defaults that
@@ -66,14 +69,21 @@ typedef struct LagSettings {
         .about = "Time origins within the longest lag: as many configurations are kept in memory." \
     }
 
-// A further row, of the observables that can tell one origin from another.
-#define WAITING_OPTION(Type, lags)                                                                 \
+// Further rows, of the observables that can tell one origin from another.
+#define WAITING_OPTIONS(Type, lags)                                                                \
+    {.name = "waiting_times",                                                                      \
+     .type = OPTION_REALS,                                                                         \
+     .offset = offsetof(Type, lags.waiting_times),                                                 \
+     .least = 0,                                                                                   \
+     .most = 1e12,                                                                                 \
+     .unit = "time unit of the stage",                                                             \
+     .about = "Time origins, ascending, counted from the start of the stage, each shown by "       \
+              "itself: how a sample ages; empty: the mean over many origins."},                    \
     {                                                                                              \
-        .name = "waiting_times", .type = OPTION_REALS,                                             \
-        .offset = offsetof(Type, lags.waiting_times), .least = 0, .most = 1e12,                    \
-        .unit = "time unit of the stage",                                                          \
-        .about = "Time origins, ascending, counted from the start of the stage, each shown by "    \
-                 "itself: how a sample ages; empty: the mean over many origins.",                  \
+        .name = "waiting_strain", .type = OPTION_REALS,                                            \
+        .offset = offsetof(Type, lags.waiting_strain), .least = 0, .most = 1e9, .unit = "",        \
+        .about = "The same of a stage with a steady shear_rate, counted in strain: 0 is the "      \
+                 "transient after the start of shear, 1 and more the stationary state.",           \
     }
 
 Lags lags_chosen(const LagSettings *settings, const Clock *clock);

@@ -15,7 +15,7 @@ typedef struct MsdSettings {
     LagSettings lags;
 } MsdSettings;
 
-static const Option rows[] = {LAG_OPTIONS(MsdSettings, lags), WAITING_OPTION(MsdSettings, lags)};
+static const Option rows[] = {LAG_OPTIONS(MsdSettings, lags), WAITING_OPTIONS(MsdSettings, lags)};
 
 typedef struct Msd {
     Observer observer;
@@ -33,6 +33,12 @@ static const LagSettings *lag_settings(const Settings *settings) {
 
 static Status check(const Settings *settings, const System *system, const Clock *clock) {
     (void)system;
+    if (clock->drive && drive_kinds(clock->drive) & DRIVE_FLOW) {
+        return status_fail(BAD_DATA,
+                           "mean_squared_displacement is of a stage at rest, and stage "
+                           "'%s' is sheared; take non_affine_displacement",
+                           clock->stage);
+    }
     return lags_check("mean_squared_displacement", lag_settings(settings), clock);
 }
 

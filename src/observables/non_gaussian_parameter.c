@@ -14,7 +14,7 @@ typedef struct MomentSettings {
 } MomentSettings;
 
 static const Option rows[] = {LAG_OPTIONS_OF(MomentSettings, lags, 10, 32),
-                              WAITING_OPTION(MomentSettings, lags)};
+                              WAITING_OPTIONS(MomentSettings, lags)};
 
 enum { MOMENTS = 2 };                                   // of each species: second, fourth
 static const uint64_t MOMENTS_TAG = 0x4d4f4d454e303031; // "MOMEN001"

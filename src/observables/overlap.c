@@ -26,7 +26,7 @@ static const Option rows[] = {
      .unit = "d",
      .about = "A particle within it of where it was overlaps with itself."},
     LAG_OPTIONS_OF(OverlapSettings, lags, 10, 32),
-    WAITING_OPTION(OverlapSettings, lags),
+    WAITING_OPTIONS(OverlapSettings, lags),
 };
 
 enum { POWERS = 2 };

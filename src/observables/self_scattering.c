@@ -45,7 +45,7 @@ static const Option rows[] = {
               "xy and -xy in two dimensions.",
      .choices = direction_names},
     LAG_OPTIONS_OF(SelfSettings, lags, 10, 32),
-    WAITING_OPTION(SelfSettings, lags),
+    WAITING_OPTIONS(SelfSettings, lags),
 };
 
 static const uint64_t SELF_TAG = 0x53454c4653303031; // "SELFS001"

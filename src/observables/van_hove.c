@@ -36,7 +36,7 @@ static const Option rows[] = {
      .unit = "d",
      .about = "Width of a bin of distances."},
     LAG_OPTIONS_OF(VanHoveSettings, lags, 1, 32),
-    WAITING_OPTION(VanHoveSettings, lags),
+    WAITING_OPTIONS(VanHoveSettings, lags),
 };
 
 static const uint64_t VAN_HOVE_TAG = 0x56414e484f303031; // "VANHO001"

@@ -21,7 +21,8 @@ typedef struct Walk {
 static Walk walk_over(const Box *box, double last) {
     Walk walk = {.box = *box, .last = last};
     for (int a = 0; a < box->dimension; a++) {
-        walk.most[a] = (int32_t)floor(last * box->edge[a] / (2 * PI));
+        const double tilt = a == 1 ? fabs(box->offset) / box->edge[0] * walk.most[0] : 0;
+        walk.most[a] = (int32_t)floor(last * box->edge[a] / (2 * PI) + tilt);
     }
     return walk;
 }
@@ -199,6 +200,12 @@ Status wave_vectors_check(const char *observable, const char *option, const Box 
                        "%s: %s = %g takes in %.3g wave vectors of the box, more than %g; make it "
                        "smaller",
                        observable, option, last, walk_length(box, last), WALK_MOST);
+}
+
+Status wave_vectors_check_rest(const char *observable, const char *instead, const Clock *clock) {
+    if (!clock->drive || !(drive_kinds(clock->drive) & DRIVE_FLOW)) return OK;
+    return status_fail(BAD_DATA, "%s is of a stage at rest, and stage '%s' is sheared; take %s",
+                       observable, clock->stage, instead);
 }
 
 Status wave_modes_make(WaveModes *modes, const WaveVectors *vectors, const State *state) {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "observables/density_modes.h"
-#include "state/state.h"
+#include "observables/observables.h"
 
 // low <= |q| < high, in 1/d.
 typedef struct Shell {
@@ -49,6 +49,10 @@ Status wave_numbers_check(const char *observable, const OptionReals *given, cons
 // BAD_DATA with a sentence if the lattice within |q| < last has too many vectors to go through;
 // `option` is what the run file calls `last`.
 Status wave_vectors_check(const char *observable, const char *option, const Box *box, double last);
+
+// BAD_DATA with a sentence if the stage is sheared: shells of the lattice at rest do not stay
+// shells. `instead` says what to take.
+Status wave_vectors_check_rest(const char *observable, const char *instead, const Clock *clock);
 
 // The densities rho_a(q) of every species, modes[species][real, imaginary][vector].
 typedef struct WaveModes {

@@ -11,7 +11,7 @@
 #include "state/state.h"
 #include "state/tally.h"
 
-enum { SETTINGS_SIZE = 1536 };
+enum { SETTINGS_SIZE = 3072 };
 
 // Room for the settings struct of any kind; its OptionTable says what lies in it.
 typedef struct Settings {
