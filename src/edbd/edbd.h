@@ -28,6 +28,16 @@ Status engine_advance(Engine *engine, int64_t windows, Tally *tally);
 void engine_grow(Engine *engine, double scale, double rate);
 double engine_scale(const Engine *engine);
 
+// The flow v_x = rate y, whose rate in each step is the mean over that step.
+typedef struct EngineFlow {
+    const Flow *flow; // borrowed; NULL: at rest
+    double step_time; // of a step, in d^2/D0
+    int64_t begun;    // the step of the state at which the flow's time began
+} EngineFlow;
+
+// From the next step on. In a box that leans the images are where it has them, flow or none.
+Status engine_shear(Engine *engine, const EngineFlow *flow);
+
 // BAD_DATA with a sentence if engines cannot do this system in windows of this length.
 Status engine_check(const System *system, double window);
 size_t engine_memory(const System *system); // bytes

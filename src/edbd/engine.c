@@ -67,15 +67,41 @@ static void take_in(Engine *engine) {
         engine->thermal_of[i] = 1 / sqrt(state->mass[i]);
         engine->fastest = fmax(engine->fastest, engine->thermal_of[i]);
     }
-    // Places are rounded by up to 2^-24 of the longest edge in each direction; products of
-    // separations not much above the largest diameter, by up to some 2^-24 of themselves besides.
-    double longest = 0;
-    for (int a = 0; a < engine->dimension; a++) longest = fmax(longest, engine->edge[a]);
-    engine->place_error = 4e-7 * longest;
-    engine->sketch_error = (float)(1e-6 * engine->largest * (longest + 2 * engine->largest));
     const bool diffusive = engine->settings.redraw && engine->settings.windows_per_step == 1;
     engine->margin = (diffusive ? MARGIN_DIFFUSIVE : MARGIN_BALLISTIC) * engine->fastest *
                      engine->settings.window;
+}
+
+// How much single precision errs.
+static void allow_for_rounding(Engine *engine) {
+    // Places are rounded by up to 2^-24 of the longest edge in each direction; products of
+    // separations not much above the largest diameter, by up to some 2^-24 of themselves besides.
+    // Displacements of images are rounded like a place.
+    double longest = 0;
+    for (int a = 0; a < engine->dimension; a++) longest = fmax(longest, engine->edge[a]);
+    if (engine->sheared) longest *= 2;
+    engine->place_error = 4e-7 * longest;
+    engine->sketch_error = (float)(1e-6 * engine->largest * (longest + 2 * engine->largest));
+}
+
+// The mean over a step, from D0/d^2 to sqrt(kT/m)/d: the strain of the step is the same.
+static double shear_rate_in(const Engine *engine, int64_t step) {
+    const EngineFlow *flow = &engine->flow;
+    if (!flow->flow) return 0;
+    const double from = (double)(step - flow->begun) * flow->step_time;
+    const double to = (double)(step + 1 - flow->begun) * flow->step_time;
+    const double interval = engine->settings.window * (double)engine->settings.windows_per_step;
+    return flow_rate(flow->flow, from, to) * (flow->step_time / interval);
+}
+
+static void set_shear_rate(Engine *engine, double rate) {
+    engine->rate = rate;
+    engine->image_velocity = rate * engine->edge[1];
+}
+
+static void take_box(Engine *engine) {
+    engine->offset = engine->state->box.offset;
+    engine->turns = (int32_t)engine->state->box.turns;
 }
 
 static Status give_out(Engine *engine) {
@@ -107,9 +133,12 @@ Status engine_create(Engine **out, const EngineSettings *settings, State *state,
                        .scale = 1,
                        .kernel = kernel_of(state->box.dimension)};
     memcpy(engine->edge, state->box.edge, sizeof engine->edge);
+    engine->sheared = !box_is_rectangular(&state->box);
+    take_box(engine);
     Status status = allocate(engine);
     if (status == OK) {
         take_in(engine);
+        allow_for_rounding(engine);
         status = list_build(engine);
     }
     if (status != OK) {
@@ -141,7 +170,15 @@ void engine_free(Engine *engine) {
     memory_free(engine);
 }
 
+Status engine_shear(Engine *engine, const EngineFlow *flow) {
+    engine->flow = *flow;
+    engine->sheared = engine->sheared || flow->flow;
+    allow_for_rounding(engine);
+    return list_build(engine);
+}
+
 void engine_grow(Engine *engine, double scale, double rate) {
+    ASSERT(!engine->sheared);
     engine->scale = scale;
     engine->growth = rate;
 }
@@ -167,6 +204,7 @@ static void snapshot_take(Engine *engine) {
     for (int a = 0; a < engine->dimension; a++) {
         memcpy(snapshot->image[a], engine->state->image[a], engine->count * sizeof(int32_t));
     }
+    snapshot->box = engine->state->box;
     snapshot->left = engine->left;
     snapshot->step = engine->state->step;
     snapshot->window = engine->window;
@@ -185,6 +223,9 @@ static void snapshot_restore(Engine *engine) {
     for (int a = 0; a < engine->dimension; a++) {
         memcpy(engine->state->image[a], snapshot->image[a], engine->count * sizeof(int32_t));
     }
+    engine->state->box = snapshot->box;
+    take_box(engine);
+    set_shear_rate(engine, shear_rate_in(engine, snapshot->step));
     engine->left = snapshot->left;
     engine->state->step = snapshot->step;
     engine->window = snapshot->window;
@@ -238,9 +279,11 @@ static void next_window(Engine *engine) {
     engine->tally.windows++;
     engine->list.age++;
     engine->scale += engine->growth * engine->settings.window;
+    engine->state->shear_rate = engine->rate;
     if (++engine->window < engine->settings.windows_per_step) return;
     engine->window = 0;
     engine->state->step++;
+    set_shear_rate(engine, engine->next_rate);
 }
 
 // Before a particle leaves the reach of the list: look again which pairs are near, and when that
@@ -260,9 +303,12 @@ static Status keep_list(Engine *engine) {
 static void run_kernel(Engine *engine) {
     const bool ends_step = engine->window + 1 == engine->settings.windows_per_step;
     engine->redraw = 0;
+    engine->next_rate = ends_step ? shear_rate_in(engine, engine->state->step + 1) : engine->rate;
     if (engine->settings.redraw && ends_step && engine->left > 1)
         draw(engine, engine->state->step + 1);
-    if (engine->growth != 0 || engine->scale != 1)
+    if (engine->sheared)
+        engine->kernel->run_sheared(engine);
+    else if (engine->growth != 0 || engine->scale != 1)
         engine->kernel->run_growing(engine);
     else
         engine->kernel->run_window(engine);
@@ -289,6 +335,8 @@ Status engine_advance(Engine *engine, int64_t windows, Tally *tally) {
     engine->left = windows;
     if (engine->scale != engine->list.scale) TRY(list_build(engine));
     engine->redraw = 0;
+    set_shear_rate(engine, shear_rate_in(engine, engine->state->step));
+    engine->next_rate = engine->rate;
     if (engine->settings.redraw && engine->window == 0) draw(engine, engine->state->step);
     engine->kernel->open_window(engine);
     snapshot_take(engine);

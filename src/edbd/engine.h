@@ -17,6 +17,9 @@ enum {
 };
 static const uint32_t NO_EVENT = UINT32_MAX;
 
+// What bends a window: nothing, diameters that grow, images across y that are displaced or move.
+enum { AT_REST, GROWING, SHEARED };
+
 // A predicted collision. It is void as soon as either partner has collided since: stamps count the
 // collisions of each particle in this window and only grow, so their sum tells.
 typedef struct Event {
@@ -33,7 +36,9 @@ typedef struct Event {
 typedef struct NeighbourList {
     double skin, inner_skin;   // in d; inner_skin = skin: not pruned
     double scale, inner_scale; // of the diameters when it was made, when it was pruned
-    double spent;              // largest displacement between making and pruning, in d
+    double strain;             // since it was pruned, before this window
+    double strain_before;      // between making and pruning
+    double spent;              // largest displacement between making and pruning, in d, flow apart
     double farthest2;          // square of the largest distance from an anchor since it was pruned
     int64_t age;               // windows since it was made
     double *anchor;            // [slots][ANCHOR]: where each was when it was pruned,
@@ -62,6 +67,7 @@ typedef struct NeighbourList {
 // What a window must not pass over: the state at the last moment known to be right.
 typedef struct Snapshot {
     int32_t *image[3];
+    Box box;
     int64_t step, window, left;
     double scale;
     Tally tally;
@@ -86,7 +92,14 @@ struct Engine {
     size_t row;   // ROW_2D or ROW_3D
     size_t count; // of particles; slot `count` holds one that nothing meets
     double edge[3];
-    double scale, growth; // of the diameters: now, and its rate
+    double scale, growth;  // of the diameters: now, and its rate
+    int sheared;           // images across y are displaced, or moving
+    double offset;         // of those above, at the start of the window, and
+    int32_t turns;         // edges that it is short of the whole displacement: those of the box
+    double rate;           // of the shear in this window, in sqrt(kT/m)/d,
+    double next_rate;      // and of that in the next one
+    double image_velocity; // of those above, rate edge[1]
+    EngineFlow flow;
     int64_t window, left; // windows done in this step; still to do in this call
 
     double *rows;       // [count + 1][row]
@@ -132,6 +145,7 @@ struct Engine {
 struct EngineKernel {
     void (*run_window)(Engine *engine);  // predict, collide, move, fold
     void (*run_growing)(Engine *engine); // the same with growing diameters
+    void (*run_sheared)(Engine *engine); // the same in a box that is sheared, or was
     void (*open_window)(Engine *engine); // what comes after the move: velocities, sketch
     void (*pair_cell)(Engine *engine, size_t cell, const Span *spans, int count);
     void (*prune)(Engine *engine); // the half list to the near pairs

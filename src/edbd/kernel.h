@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One window of event-driven dynamics: predict all collisions in it, carry them out in order,
-// move to its end. Compiled once per instruction set; dimension and growth are folded constants.
+// move to its end. Compiled once per instruction set; dimension and flight are folded constants.
 //
 // Every particle has a virtual origin X: its place at time s of the window is X + v s. A collision
 // at s that changes v by k changes X by -k s, so no particle needs a clock of its own.
@@ -30,21 +30,38 @@ KERNEL double nearest(double r, double edge) {
     return r > edge / 2 ? r - edge : r < -edge / 2 ? r + edge : r;
 }
 
-// From time s on.
-KERNEL Gap gap_of(const int dimension, const int growing, const Engine *engine, uint32_t i,
-                  uint32_t j, double s, Growth growth) {
-    const size_t row = dimension == 2 ? ROW_2D : ROW_3D, velocity = row / 2;
-    const double *row_i = engine->rows + row * i, *row_j = engine->rows + row * j;
-    double r2 = 0, rv = 0, v2 = 0;
+// From one particle to the nearest image of another: of their virtual origins, and of velocities.
+// Of images across the edges of y, those of a sheared box move (Weysser, thesis, eqs. 2.12 to 2.14,
+// with the whole strain in place of that since the last step).
+KERNEL void separate(const int dimension, const int flight, const Engine *engine, const double *i,
+                     const double *j, double r[3], double v[3]) {
+    const size_t velocity = (dimension == 2 ? ROW_2D : ROW_3D) / 2;
     for (size_t a = 0; a < (size_t)dimension; a++) {
-        const double v = row_i[velocity + a] - row_j[velocity + a];
-        const double r = nearest(row_i[a] - row_j[a], engine->edge[a]) + v * s;
-        r2 = a == 0 ? r * r : r2 + r * r;
-        rv = a == 0 ? r * v : rv + r * v;
-        v2 = a == 0 ? v * v : v2 + v * v;
+        r[a] = i[a] - j[a];
+        v[a] = i[velocity + a] - j[velocity + a];
+    }
+    if (flight == SHEARED) {
+        const double half = engine->edge[1] / 2, above = r[1] > half ? 1 : r[1] < -half ? -1 : 0;
+        r[0] -= above * engine->offset;
+        v[0] -= above * engine->image_velocity;
+    }
+    for (int a = 0; a < dimension; a++) r[a] = nearest(r[a], engine->edge[a]);
+}
+
+// From time s on.
+KERNEL Gap gap_of(const int dimension, const int flight, const Engine *engine, uint32_t i,
+                  uint32_t j, double s, Growth growth) {
+    const size_t row = dimension == 2 ? ROW_2D : ROW_3D;
+    double r[3], v[3], r2 = 0, rv = 0, v2 = 0;
+    separate(dimension, flight, engine, engine->rows + row * i, engine->rows + row * j, r, v);
+    for (int a = 0; a < dimension; a++) {
+        const double x = r[a] + v[a] * s;
+        r2 = a == 0 ? x * x : r2 + x * x;
+        rv = a == 0 ? x * v[a] : rv + x * v[a];
+        v2 = a == 0 ? v[a] * v[a] : v2 + v[a] * v[a];
     }
     const double contact = engine->radius[i] + engine->radius[j], contact2 = contact * contact;
-    if (!growing) return (Gap){.a = v2, .b = rv, .c = r2 - contact2};
+    if (flight != GROWING) return (Gap){.a = v2, .b = rv, .c = r2 - contact2};
     const double scale = growth.scale + growth.rate * s;
     return (Gap){.a = v2 - contact2 * (growth.rate * growth.rate),
                  .b = rv - contact2 * (scale * growth.rate),
@@ -54,12 +71,12 @@ KERNEL Gap gap_of(const int dimension, const int growing, const Engine *engine, 
 // Does it close within `left`? Pairs that approach, and either overlap by then or have passed
 // through a real contact before. A pair that overlaps already and approaches meets now; one that
 // overlaps and recedes is left to do so. With growth a pair may also meet without approaching.
-KERNEL int gap_closes(const int growing, Gap gap, double left) {
+KERNEL int gap_closes(const int flight, Gap gap, double left) {
     const double end = gap.b + gap.a * left;
     const int approaching = gap.b < 0;
     const int overlaps = gap.c + left * (gap.b + end) < 0;
     const int turned = (0 < end) & (gap.a * gap.c < gap.b * gap.b);
-    if (!growing) return approaching & (overlaps | turned);
+    if (flight != GROWING) return approaching & (overlaps | turned);
     return (approaching | (0 < gap.c)) & (overlaps | (turned & approaching));
 }
 
@@ -103,14 +120,14 @@ KERNEL void event_drop(Engine *engine, uint32_t *link) {
 }
 
 // A pair becomes an event if it meets between time s and the end of the window.
-KERNEL void predict(const int dimension, const int growing, Engine *engine, uint32_t i, uint32_t j,
+KERNEL void predict(const int dimension, const int flight, Engine *engine, uint32_t i, uint32_t j,
                     double s, Growth growth) {
-    const Gap gap = gap_of(dimension, growing, engine, i, j, s, growth);
-    if (!gap_closes(growing, gap, engine->settings.window - s)) return;
+    const Gap gap = gap_of(dimension, flight, engine, i, j, s, growth);
+    if (!gap_closes(flight, gap, engine->settings.window - s)) return;
     event_put(engine, s + gap_time(gap), i, j);
 }
 
-KERNEL void predict_all(const int dimension, const int growing, Engine *engine, Growth growth,
+KERNEL void predict_all(const int dimension, const int flight, Engine *engine, Growth growth,
                         const Sieve *sieve) {
     const NeighbourList *list = &engine->list;
     const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D;
@@ -120,20 +137,20 @@ KERNEL void predict_all(const int dimension, const int growing, Engine *engine, 
         const Rows i = {engine->sketch, {first, first + HALF}};
         const Rows j = {engine->sketch, {second, second + HALF}};
         const Wides contact2 = *(const Wides *)(list->near_contact2 + p);
-        const unsigned bits = may_meet(dimension, sieve, &i, &j, contact2, NULL);
+        const unsigned bits = may_meet(dimension, flight == SHEARED, sieve, &i, &j, contact2, NULL);
         wides_pack_u32(list->hit_first + hits, bits, first);
         wides_pack_u32(list->hit_second + hits, bits, second);
         hits += (unsigned)__builtin_popcount(bits);
     }
     for (size_t h = 0; h < hits; h++) {
-        predict(dimension, growing, engine, list->hit_first[h] / row, list->hit_second[h] / row, 0,
+        predict(dimension, flight, engine, list->hit_first[h] / row, list->hit_second[h] / row, 0,
                 growth);
     }
 }
 
 // After a collision at time s: whom do its partners meet in the rest of the window? The neighbours
 // of both are tested at once, those of one in each half of a register.
-KERNEL void predict_both(const int dimension, const int growing, Engine *engine,
+KERNEL void predict_both(const int dimension, const int flight, Engine *engine,
                          const uint32_t slots[2], double s, Growth growth, const Sieve *sieve) {
     const NeighbourList *list = &engine->list;
     const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D, none = list->start[engine->count];
@@ -151,20 +168,26 @@ KERNEL void predict_both(const int dimension, const int growing, Engine *engine,
         const Wides contact2 =
             wides_load_halves(list->contact2 + from[0], list->contact2 + from[1]);
         const Rows j = {engine->sketch, {list->neighbour + from[0], list->neighbour + from[1]}};
-        unsigned bits = may_meet(dimension, sieve, &i, &j, contact2, &gone);
+        unsigned bits = may_meet(dimension, flight == SHEARED, sieve, &i, &j, contact2, &gone);
         for (; bits; bits &= bits - 1) {
             const int k = __builtin_ctz(bits);
-            predict(dimension, growing, engine, slots[k / HALF], j.half[k / HALF][k % HALF] / row,
-                    s, growth);
+            predict(dimension, flight, engine, slots[k / HALF], j.half[k / HALF][k % HALF] / row, s,
+                    growth);
         }
     }
 }
 
-// The displacement of a particle from its anchor, at a place on its way.
-KERNEL void watch(const int dimension, Engine *engine, uint32_t slot, const double place[3]) {
+// The displacement of a particle from its anchor, which goes with the flow: at a place on its way,
+// at time t.
+KERNEL void watch(const int dimension, const int flight, Engine *engine, uint32_t slot,
+                  const double place[3], double t) {
     const double *anchor = engine->list.anchor + (size_t)ANCHOR * slot;
     double d2 = 0;
-    for (int a = 0; a < dimension; a++) d2 += (place[a] - anchor[a]) * (place[a] - anchor[a]);
+    for (int a = 0; a < dimension; a++) {
+        double d = place[a] - anchor[a];
+        if (flight == SHEARED && a == 0) d -= (engine->list.strain + engine->rate * t) * place[1];
+        d2 += d * d;
+    }
     if (d2 > engine->list.farthest2) engine->list.farthest2 = d2;
 }
 
@@ -248,28 +271,27 @@ KERNEL void exchange_close(const int dimension, const Exchange *sums, Tally *tal
 
 // The elastic collision (Weysser, thesis, eq. 2.5, divided by r^2 as it must be): momentum
 // -2 m_i m_j/(m_i + m_j) b r/r^2 goes to i, its mirror image to j; r = r_i - r_j, b = r.v.
-KERNEL void collide(const int dimension, const int growing, Engine *engine, const Event *event,
+KERNEL void collide(const int dimension, const int flight, Engine *engine, const Event *event,
                     Growth growth, Exchange *sums) {
     const size_t row = dimension == 2 ? ROW_2D : ROW_3D, velocity = row / 2;
     const uint32_t slot_i = event->first, slot_j = event->second;
     double *i = engine->rows + row * slot_i, *j = engine->rows + row * slot_j;
     const double t = event->time;
-    double r[3], place_i[3], place_j[3], r2 = 0, b = 0;
+    double r[3], v[3], place_i[3], place_j[3], r2 = 0, b = 0;
+    separate(dimension, flight, engine, i, j, r, v);
     for (int a = 0; a < dimension; a++) {
-        const double v = i[velocity + (size_t)a] - j[velocity + (size_t)a];
-        const double edge = engine->edge[a], x = i[a] - j[a];
-        r[a] = (x > edge / 2 ? x - edge : x < -edge / 2 ? x + edge : x) + v * t;
+        r[a] += v[a] * t;
         r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
-        b = a == 0 ? r[a] * v : b + r[a] * v;
+        b = a == 0 ? r[a] * v[a] : b + r[a] * v[a];
         place_i[a] = i[a] + i[velocity + (size_t)a] * t;
         place_j[a] = j[a] + j[velocity + (size_t)a] * t;
     }
-    const double scale = growing ? growth.scale + growth.rate * t : 1;
+    const double scale = flight == GROWING ? growth.scale + growth.rate * t : 1;
     const double contact = (engine->radius[slot_i] + engine->radius[slot_j]) * scale;
-    if (growing) b -= contact * contact / scale * growth.rate;
+    if (flight == GROWING) b -= contact * contact / scale * growth.rate;
     count_overlap(engine, r2, contact * contact);
-    watch(dimension, engine, slot_i, place_i);
-    watch(dimension, engine, slot_j, place_j);
+    watch(dimension, flight, engine, slot_i, place_i, t);
+    watch(dimension, flight, engine, slot_j, place_j, t);
 
     const double mass_i = engine->mass[slot_i], mass_j = engine->mass[slot_j];
     const double k = -2 * b / (r2 * (mass_i + mass_j));
@@ -318,7 +340,7 @@ KERNEL uint32_t *earliest(Engine *engine, uint32_t *bucket) {
     return best;
 }
 
-KERNEL void carry_out(const int dimension, const int growing, Engine *engine, Growth growth,
+KERNEL void carry_out(const int dimension, const int flight, Engine *engine, Growth growth,
                       const Sieve *sieve) {
     Exchange sums = exchange_open(dimension, &engine->tally);
     for (uint32_t b = 0; b < engine->buckets && !engine->hung; b++) {
@@ -326,17 +348,17 @@ KERNEL void carry_out(const int dimension, const int growing, Engine *engine, Gr
         while (engine->bucket[b] != NO_EVENT && (link = earliest(engine, &engine->bucket[b]))) {
             const Event event = engine->events[*link];
             event_drop(engine, link);
-            collide(dimension, growing, engine, &event, growth, &sums);
+            collide(dimension, flight, engine, &event, growth, &sums);
             if (engine->hung) break;
             const uint32_t slots[2] = {event.first, event.second};
-            predict_both(dimension, growing, engine, slots, event.time, growth, sieve);
+            predict_both(dimension, flight, engine, slots, event.time, growth, sieve);
         }
     }
     exchange_close(dimension, &sums, &engine->tally);
 }
 
 // Back into [0, edge); the anchor goes along, for the distance to it must not jump.
-KERNEL void fold(Engine *engine, double *row, uint32_t slot, int axis) {
+KERNEL void fold_axis(Engine *engine, double *row, uint32_t slot, int axis) {
     const double edge = engine->edge[axis];
     double *anchor = engine->list.anchor + (size_t)ANCHOR * slot;
     int32_t *image = &engine->state->image[axis][engine->id[slot]];
@@ -352,8 +374,31 @@ KERNEL void fold(Engine *engine, double *row, uint32_t slot, int axis) {
     }
 }
 
+// Whoever leaves a sheared box across y comes back displaced and with the velocity of the image.
+// Image counts along x take the whole turns, so that the unfolded place does not jump.
+KERNEL void fold_sheared(const int dimension, Engine *engine, double *row, uint32_t slot) {
+    const size_t velocity = (dimension == 2 ? ROW_2D : ROW_3D) / 2;
+    int32_t *image_x = &engine->state->image[0][engine->id[slot]];
+    const int32_t *image_y = &engine->state->image[1][engine->id[slot]], before = *image_y;
+    fold_axis(engine, row, slot, 1);
+    const int32_t up = *image_y - before;
+    if (up == 0) return;
+    row[0] -= up * engine->offset;
+    row[velocity] -= up * engine->image_velocity;
+    engine->list.anchor[(size_t)ANCHOR * slot] -=
+        up * (engine->offset - engine->list.strain * engine->edge[1]);
+    *image_x -= up * engine->turns;
+}
+
+KERNEL void fold(const int dimension, const int flight, Engine *engine, double *row,
+                 uint32_t slot) {
+    if (flight == SHEARED) fold_sheared(dimension, engine, row, slot);
+    for (int a = 0; a < dimension; a++) fold_axis(engine, row, slot, a);
+}
+
 // To the end of the window: a row in 3D, a row or two in 2D, as many as a register holds.
-KERNEL void move_rows(const int dimension, Engine *engine, uint32_t slot, Quad *farthest) {
+KERNEL void move_rows(const int dimension, const int flight, Engine *engine, uint32_t slot,
+                      Quad *farthest) {
     const double w = engine->settings.window, *edge = engine->edge;
     const Quad least = {0, 0, dimension == 2 ? -INFINITY : 0, -INFINITY};
     const Quad bound = {edge[0], edge[1], dimension == 2 ? INFINITY : edge[2], INFINITY};
@@ -364,7 +409,9 @@ KERNEL void move_rows(const int dimension, Engine *engine, uint32_t slot, Quad *
     else
         place += *(const Quad *)(row + 4) * (Quad){w, w, w};
     *(Quad *)row = place;
-    const Quad away = place - *(const Quad *)(engine->list.anchor + (size_t)ANCHOR * slot);
+    Quad away = place - *(const Quad *)(engine->list.anchor + (size_t)ANCHOR * slot);
+    if (flight == SHEARED)
+        away -= __builtin_shufflevector(place, place, 1, 1, 1, 1) * (Quad){engine->list.strain};
     Quad away2 = away * away;
     if (dimension == 2)
         away2 += __builtin_shufflevector(away2, away2, 1, 0, 2, 3);
@@ -373,24 +420,27 @@ KERNEL void move_rows(const int dimension, Engine *engine, uint32_t slot, Quad *
     if (dimension == 3) away2 += __builtin_shufflevector(away2, away2, 2, 3, 0, 1);
     quad_keep_larger(farthest, &away2);
     if (__builtin_expect(!quad_strays(&place, &least, &bound), 1)) return;
-    for (int a = 0; a < dimension; a++) fold(engine, row, slot, a);
+    fold(dimension, flight, engine, row, slot);
 }
 
 // Particles from..to - 1 as they enter the next window: with a velocity from a Gaussian of variance
-// kT/m per direction (Weysser, thesis, eq. 2.7, corrected) where they are drawn anew.
-KERNEL void open_rows(const int dimension, const int redraw, const Engine *engine, uint32_t from,
-                      uint32_t to) {
+// kT/m per direction (Weysser, thesis, eq. 2.7, corrected), about that of the flow, where they are
+// drawn anew.
+KERNEL void open_rows(const int dimension, const int flight, const int redraw, const Engine *engine,
+                      uint32_t from, uint32_t to) {
     for (uint32_t slot = from; slot < to; slot++) {
         const uint32_t row = (dimension == 2 ? ROW_2D : ROW_3D) * slot;
         double *place = engine->rows + row;
         if (!redraw) {
             sketch_row(dimension, engine, row);
         } else if (dimension == 2) {
-            const Pair velocity = pair_widen(engine->normals + row / 2) * engine->thermal[slot];
+            Pair velocity = pair_widen(engine->normals + row / 2) * engine->thermal[slot];
+            if (flight == SHEARED) velocity += (Pair){engine->next_rate * place[1], 0};
             *(Pair *)(place + 2) = velocity;
             sketch_2d(engine, *(const Pair *)place, velocity, engine->sketch + row);
         } else {
-            const Quad velocity = quad_widen(engine->normals + row / 2) * engine->thermal[slot];
+            Quad velocity = quad_widen(engine->normals + row / 2) * engine->thermal[slot];
+            if (flight == SHEARED) velocity += (Quad){engine->next_rate * place[1], 0, 0, 0};
             *(Quad *)(place + 4) = velocity;
             sketch_3d(engine, (const Quad *)place, &velocity, engine->sketch + row);
         }
@@ -406,27 +456,37 @@ KERNEL unsigned two_rows_stray(const Engine *engine, Lanes rows) {
 }
 
 // As move_rows and then open_rows, two rows of 2D at a time; `slot` is even.
-KERNEL void move_two_rows(const int redraw, Engine *engine, uint32_t slot, Lanes *farthest) {
+KERNEL void move_two_rows(const int flight, const int redraw, Engine *engine, uint32_t slot,
+                          Lanes *farthest) {
     const double w = engine->settings.window, *thermal = engine->thermal + slot;
     double *row = engine->rows + (size_t)ROW_2D * slot;
     Lanes rows = lanes_load(row);
     Lanes velocity = __builtin_shufflevector(rows, rows, 2, 3, 2, 3, 6, 7, 6, 7);
     rows += velocity * (Lanes){w, w, 0, 0, w, w, 0, 0};
-    const Lanes away = rows - lanes_load(engine->list.anchor + (size_t)ANCHOR * slot);
+    Lanes away = rows - lanes_load(engine->list.anchor + (size_t)ANCHOR * slot);
+    if (flight == SHEARED) {
+        const double strain = engine->list.strain;
+        away -= __builtin_shufflevector(rows, rows, 1, 1, 1, 1, 5, 5, 5, 5) *
+                (Lanes){strain, 0, 0, 0, strain, 0, 0, 0};
+    }
     Lanes away2 = away * away;
     away2 += __builtin_shufflevector(away2, away2, 1, 0, 2, 3, 5, 4, 6, 7);
     *farthest = (Lanes)_mm512_max_pd((__m512d)*farthest, (__m512d)away2);
     if (__builtin_expect(two_rows_stray(engine, rows) != 0, 0)) {
         lanes_store(row, rows);
-        for (uint32_t k = 0; k < 2; k++) {
-            for (int a = 0; a < 2; a++) fold(engine, row + ROW_2D * k, slot + k, a);
-        }
+        for (uint32_t k = 0; k < 2; k++) fold(2, flight, engine, row + ROW_2D * k, slot + k);
         rows = lanes_load(row);
+        velocity = __builtin_shufflevector(rows, rows, 2, 3, 2, 3, 6, 7, 6, 7);
     }
     if (redraw) {
         const Quad drawn = quad_widen(engine->normals + 2 * (size_t)slot) *
                            (Quad){thermal[0], thermal[0], thermal[1], thermal[1]};
         velocity = __builtin_shufflevector(drawn, drawn, 0, 1, 0, 1, 2, 3, 2, 3);
+        if (flight == SHEARED) {
+            const double rate = engine->next_rate;
+            velocity += __builtin_shufflevector(rows, rows, 1, 1, 1, 1, 5, 5, 5, 5) *
+                        (Lanes){rate, 0, rate, 0, rate, 0, rate, 0};
+        }
         rows = __builtin_shufflevector(rows, velocity, 0, 1, 10, 11, 4, 5, 14, 15);
     }
     lanes_store(row, rows);
@@ -438,7 +498,7 @@ KERNEL void move_two_rows(const int redraw, Engine *engine, uint32_t slot, Lanes
 #endif
 
 // Out of this window and into the next one, a few particles at a time, while they are at hand.
-KERNEL void move_all(const int dimension, const int redraw, Engine *engine) {
+KERNEL void move_all(const int dimension, const int flight, const int redraw, Engine *engine) {
     enum { FEW = 32 };
     const uint32_t count = (uint32_t)engine->count;
     Quad farthest = {0};
@@ -446,36 +506,58 @@ KERNEL void move_all(const int dimension, const int redraw, Engine *engine) {
 #if LANES == 8
     Lanes farthest_two = {0};
     const uint32_t even = dimension == 2 ? count & ~1u : 0;
-    for (; from < even; from += 2) move_two_rows(redraw, engine, from, &farthest_two);
+    for (; from < even; from += 2) move_two_rows(flight, redraw, engine, from, &farthest_two);
     farthest[0] = farthest_two[0] > farthest_two[4] ? farthest_two[0] : farthest_two[4];
 #endif
     for (; from < count; from += FEW) {
         const uint32_t to = from + FEW < count ? from + FEW : count;
         for (uint32_t slot = from; slot < to; slot++) {
-            move_rows(dimension, engine, slot, &farthest);
+            move_rows(dimension, flight, engine, slot, &farthest);
         }
-        open_rows(dimension, redraw, engine, from, to);
+        open_rows(dimension, flight, redraw, engine, from, to);
     }
     if (farthest[0] > engine->list.farthest2) engine->list.farthest2 = farthest[0];
 }
 
+// The images above move on for a window.
+KERNEL void shear(Engine *engine) {
+    Box *box = &engine->state->box;
+    box_shear(box, engine->image_velocity * engine->settings.window);
+    engine->offset = box->offset;
+    engine->turns = (int32_t)box->turns;
+    engine->list.strain += engine->rate * engine->settings.window;
+}
+
 // Works on a copy of the engine's own fields: what is written to rows and lists cannot be it, so
 // they stay in registers.
-KERNEL void run(const int dimension, const int growing, Engine *engine) {
+KERNEL void run(const int dimension, const int flight, Engine *engine) {
     Engine own = *engine;
     const Growth growth = {.scale = own.scale, .rate = own.growth};
     own.events_used = 0;
     own.free_event = NO_EVENT;
     memset(own.stamp, 0, (own.count + 1) * sizeof *own.stamp);
     memset(own.bucket, 0xff, own.buckets * sizeof *own.bucket);
-    const Sieve sieve = sieve_of(dimension, &own);
-    predict_all(dimension, growing, &own, growth, &sieve);
-    carry_out(dimension, growing, &own, growth, &sieve);
+    const Sieve sieve = sieve_of(dimension, flight == SHEARED, &own);
+    predict_all(dimension, flight, &own, growth, &sieve);
+    carry_out(dimension, flight, &own, growth, &sieve);
+    if (flight == SHEARED) shear(&own);
     if (own.redraw)
-        move_all(dimension, 1, &own);
+        move_all(dimension, flight, 1, &own);
     else
-        move_all(dimension, 0, &own);
+        move_all(dimension, flight, 0, &own);
     *engine = own;
+}
+
+// What a window begins with, where there is none before it.
+KERNEL void open_all(const int dimension, const Engine *engine) {
+    const Engine own = *engine;
+    const uint32_t count = (uint32_t)own.count;
+    if (own.redraw && own.sheared)
+        open_rows(dimension, SHEARED, 1, &own, 0, count);
+    else if (own.redraw)
+        open_rows(dimension, AT_REST, 1, &own, 0, count);
+    else
+        open_rows(dimension, AT_REST, 0, &own, 0, count);
 }
 
 // Becomes: the two kernels of an instruction set.
@@ -484,17 +566,16 @@ KERNEL void run(const int dimension, const int growing, Engine *engine) {
     ENGINE_KERNEL_OF(3, path)
 #define ENGINE_KERNEL_OF(dimension, path)                                                          \
     static void run_##dimension(Engine *engine) {                                                  \
-        run(dimension, 0, engine);                                                                 \
+        run(dimension, AT_REST, engine);                                                           \
     }                                                                                              \
     static void grow_##dimension(Engine *engine) {                                                 \
-        run(dimension, 1, engine);                                                                 \
+        run(dimension, GROWING, engine);                                                           \
+    }                                                                                              \
+    static void shear_##dimension(Engine *engine) {                                                \
+        run(dimension, SHEARED, engine);                                                           \
     }                                                                                              \
     static void open_##dimension(Engine *engine) {                                                 \
-        const Engine own = *engine;                                                                \
-        if (own.redraw)                                                                            \
-            open_rows(dimension, 1, &own, 0, (uint32_t)own.count);                                 \
-        else                                                                                       \
-            open_rows(dimension, 0, &own, 0, (uint32_t)own.count);                                 \
+        open_all(dimension, engine);                                                               \
     }                                                                                              \
     static void pair_##dimension(Engine *engine, size_t cell, const Span *spans, int count) {      \
         pair_cell(dimension, engine, cell, spans, count);                                          \
@@ -505,6 +586,7 @@ KERNEL void run(const int dimension, const int growing, Engine *engine) {
     const EngineKernel engine_kernel_##dimension##d_##path = {                                     \
         .run_window = run_##dimension,                                                             \
         .run_growing = grow_##dimension,                                                           \
+        .run_sheared = shear_##dimension,                                                          \
         .open_window = open_##dimension,                                                           \
         .pair_cell = pair_##dimension,                                                             \
         .prune = prune_##dimension,                                                                \

@@ -101,6 +101,17 @@ KERNEL Wides wides_nearest(Wides r, Wides edge) {
 #endif
 }
 
+// Separations x of images that are displaced by `offset` for those y across an edge above.
+KERNEL Wides wides_lean(Wides x, Wides y, Wides half, Wides offset) {
+#if LANES == 8
+    const __mmask16 above = (__mmask16)wides_less(half, y), below = (__mmask16)wides_less(y, -half);
+    x = (Wides)_mm512_mask_sub_ps((__m512)x, above, (__m512)x, (__m512)offset);
+    return (Wides)_mm512_mask_add_ps((__m512)x, below, (__m512)x, (__m512)offset);
+#else
+    return x - (Wides)((WideBits)offset & (y > half)) + (Wides)((WideBits)offset & (y < -half));
+#endif
+}
+
 KERNEL Wides wides_load_at(const float *from) { // at any address
     Wides wides;
     memcpy(&wides, from, sizeof wides);

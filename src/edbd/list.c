@@ -4,6 +4,7 @@
 #include "edbd/engine.h"
 
 #include "base/memory.h"
+#include "numerics/vector.h"
 
 #include <math.h>
 #include <string.h>
@@ -22,13 +23,15 @@ static const float NEVER = -1e30F;           // contact distance squared of pair
 typedef struct Grid {
     int cells[3];
     double per_length[3];
+    double lean; // of the edge along y, towards x
 } Grid;
 
 // Cells at least `range` wide; fewer than three along an axis would be neighbours twice: take one.
 static Grid grid_of(const Engine *engine, double range) {
-    Grid grid = {.cells = {1, 1, 1}};
+    Grid grid = {.cells = {1, 1, 1}, .lean = engine->offset / engine->edge[1]};
     for (int a = 0; a < engine->dimension; a++) {
-        double cells = floor(engine->edge[a] / range);
+        const double wide = a == 0 ? range * box_widening(&engine->state->box) : range;
+        double cells = floor(engine->edge[a] / wide);
         if (cells < 3) cells = 1;
         grid.cells[a] = (int)cells;
     }
@@ -52,14 +55,21 @@ static Grid grid_that_fits(const Engine *engine, double range) {
     return grid;
 }
 
+// In which a place is: along the edges of the box, the second of which leans.
+static int cell_at(const Engine *engine, const Grid *grid, const double place[3]) {
+    const double x = place[0] - grid->lean * place[1], edge = engine->edge[0];
+    int cell = 0;
+    for (int a = engine->dimension - 1; a > 0; a--) {
+        cell = (cell + cell_along(grid, a, place[a])) * grid->cells[a - 1];
+    }
+    return cell + cell_along(grid, 0, x < 0 ? x + edge : x < edge ? x : x - edge);
+}
+
 static void count_cells(Engine *engine, const Grid *grid) {
     memset(engine->cell_start, 0, (grid_size(grid) + 1) * sizeof *engine->cell_start);
     for (size_t slot = 0; slot < engine->count; slot++) {
         const double *row = engine->rows + engine->row * slot;
-        int cell = 0;
-        for (int a = engine->dimension - 1; a >= 0; a--) {
-            cell = cell * grid->cells[a] + cell_along(grid, a, row[a]);
-        }
+        const int cell = cell_at(engine, grid, row);
         engine->cell_of[slot] = (uint32_t)cell;
         engine->cell_start[cell + 1]++;
     }
@@ -102,21 +112,27 @@ static void place_anchors(Engine *engine) {
         for (int a = 0; a < engine->dimension; a++) anchor[a] = row[a];
     }
     engine->list.farthest2 = 0;
+    engine->list.strain = 0;
 }
 
-// As the crow flies from where each particle was when the list was made.
+// From where a particle was when the list was made, flow apart; it may have been folded since.
+static void displacement_of(const Engine *engine, size_t slot, double d[3]) {
+    const double *place = engine->rows + engine->row * slot;
+    const double *origin = engine->list.origin + ANCHOR * slot;
+    for (int a = 0; a < engine->dimension; a++) d[a] = place[a] - origin[a];
+    const double above = rint(d[1] / engine->edge[1]), y = place[1] - above * engine->edge[1];
+    d[0] -= above * engine->offset + (engine->list.strain_before + engine->list.strain) * y;
+    for (int a = 0; a < engine->dimension; a++)
+        d[a] -= engine->edge[a] * rint(d[a] / engine->edge[a]);
+}
+
+// As the crow flies.
 static double largest_displacement(const Engine *engine) {
     double farthest2 = 0;
     for (size_t slot = 0; slot < engine->count; slot++) {
-        const double *row = engine->rows + engine->row * slot;
-        const double *origin = engine->list.origin + ANCHOR * slot;
-        double d2 = 0;
-        for (int a = 0; a < engine->dimension; a++) {
-            const double edge = engine->edge[a], x = fabs(row[a] - origin[a]);
-            const double d = x > edge / 2 ? edge - x : x; // folded since
-            d2 += d * d;
-        }
-        farthest2 = fmax(farthest2, d2);
+        double d[3] = {0, 0, 0};
+        displacement_of(engine, slot, d);
+        farthest2 = fmax(farthest2, vector_dot(d, d));
     }
     return sqrt(farthest2);
 }
@@ -309,6 +325,7 @@ static double skin_of(const Engine *engine) {
 void list_prune(Engine *engine) {
     NeighbourList *list = &engine->list;
     list->spent = largest_displacement(engine);
+    list->strain_before += list->strain;
     list->inner_scale = engine->scale;
     place_anchors(engine);
     engine->kernel->prune(engine);
@@ -339,7 +356,7 @@ Status list_build(Engine *engine) {
     NeighbourList *list = &engine->list;
     if (list->skin == 0 || list->scale != engine->scale) choose_skins(engine);
     list->scale = list->inner_scale = engine->scale;
-    list->spent = 0;
+    list->spent = list->strain_before = 0;
     list->age = 0;
     const Grid grid = grid_that_fits(engine, engine->largest * engine->scale + list->skin);
     count_cells(engine, &grid);
@@ -362,16 +379,34 @@ Status list_build(Engine *engine) {
     return OK;
 }
 
+// With the pairs out of the list farther apart than contact + skin when it was made, and particles
+// displaced by u since, flow apart, a pair can meet after a strain g only if
+//     contact + skin < |S r| + 2 u,  |S r| <= contact (|g|/2 + sqrt(1 + g^2/4)),
+// S undoing the strain. What the second adds to contact:
+static double strained(const Engine *engine, double strain) {
+    const double g = fabs(strain);
+    return engine->largest * engine->scale * (g / 2 + g * g / 8);
+}
+
+// Between two moments at which displacements are looked at, flight is straight, but the flow that
+// is taken off it is not: by less than this part of them.
+static double bent(const Engine *engine) {
+    return 1 + fabs(engine->rate) * engine->settings.window;
+}
+
+// Displacements since pruning add to those before, whose flow was taken off at another y.
 double list_outer_reach(const Engine *engine) {
     const NeighbourList *list = &engine->list;
-    return (list->skin - engine->largest * (engine->scale - list->scale)) / 2 - list->spent;
+    const double skin = list->skin - engine->largest * (engine->scale - list->scale) -
+                        strained(engine, list->strain_before + list->strain);
+    return (skin / 2 - list->spent) / (bent(engine) * (1 + fabs(list->strain_before)));
 }
 
 double list_reach(const Engine *engine) {
     const NeighbourList *list = &engine->list;
-    const double inner =
-        (list->inner_skin - engine->largest * (engine->scale - list->inner_scale)) / 2;
-    return fmin(inner, list_outer_reach(engine));
+    const double skin = list->inner_skin - engine->largest * (engine->scale - list->inner_scale) -
+                        strained(engine, list->strain);
+    return fmin(skin / 2 / bent(engine), list_outer_reach(engine));
 }
 
 Status list_create(Engine *engine) {

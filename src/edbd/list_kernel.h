@@ -11,16 +11,18 @@ static const double ROUNDED_UP = 1 + 1e-6; // for contact distances kept in sing
 
 // Which of the candidates from slot `from` on are near `slot`, one bit each. Places and radii are
 // in single precision, so a few more are found than are near.
-KERNEL unsigned near_slots(const int dimension, const Engine *engine, uint32_t slot, uint32_t from,
-                           uint32_t to, Wides *contact2) {
+KERNEL unsigned near_slots(const int dimension, const int sheared, const Engine *engine,
+                           uint32_t slot, uint32_t from, uint32_t to, Wides *contact2) {
     const float *const *column = (const float *const *)engine->column;
     const float skin = (float)(engine->list.skin * ROUNDED_UP + engine->place_error);
-    Wides r2 = {0};
+    Wides r[3], r2 = {0};
+    for (int a = 0; a < dimension; a++) r[a] = column[a][slot] - wides_load_at(column[a] + from);
+    if (sheared)
+        r[0] = wides_lean(r[0], r[1], wides_all((float)engine->edge[1] * 0.5f),
+                          wides_all((float)engine->offset));
     for (int a = 0; a < dimension; a++) {
-        const Wides edge = wides_all((float)engine->edge[a]);
-        Wides r = column[a][slot] - wides_load_at(column[a] + from);
-        r = wides_nearest(r, edge);
-        r2 = a == 0 ? r * r : r2 + r * r;
+        r[a] = wides_nearest(r[a], wides_all((float)engine->edge[a]));
+        r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
     }
     const Wides contact = column[dimension][slot] + wides_load_at(column[dimension] + from);
     const Wides range = contact * (float)(engine->scale * ROUNDED_UP) + skin;
@@ -30,12 +32,14 @@ KERNEL unsigned near_slots(const int dimension, const Engine *engine, uint32_t s
 }
 
 // Adds the pairs of `slot` with the candidates of a span to the half list.
-KERNEL void pair_span(const int dimension, Engine *engine, uint32_t slot, Span span) {
+KERNEL void pair_span(const int dimension, const int sheared, Engine *engine, uint32_t slot,
+                      Span span) {
     NeighbourList *list = &engine->list;
     const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D;
     for (uint32_t from = span.from; from < span.to; from += WIDE) {
         Wides contact2;
-        const unsigned bits = near_slots(dimension, engine, slot, from, span.to, &contact2);
+        const unsigned bits =
+            near_slots(dimension, sheared, engine, slot, from, span.to, &contact2);
         wides_pack_numbers(list->second + list->pairs, bits, from * row, row);
         wides_pack(list->pair_contact2 + list->pairs, bits, contact2);
         for (int k = 0; k < WIDE; k++) list->first[list->pairs + (size_t)k] = slot * row;
@@ -45,22 +49,30 @@ KERNEL void pair_span(const int dimension, Engine *engine, uint32_t slot, Span s
 
 // The pairs of the particles of a cell with those after them in it and in the cells after it, of
 // which spans[0] begins with the cell itself.
-KERNEL void pair_cell(const int dimension, Engine *engine, size_t cell, const Span *spans,
-                      int count) {
+KERNEL void pair_cell_in(const int dimension, const int sheared, Engine *engine, size_t cell,
+                         const Span *spans, int count) {
     Engine own = *engine; // a copy, which what is written to the list cannot be: see run()
     for (uint32_t slot = own.cell_start[cell]; slot < own.cell_start[cell + 1]; slot++) {
         own.list.pair_start[slot] = (uint32_t)own.list.pairs;
-        pair_span(dimension, &own, slot, (Span){slot + 1, spans[0].to});
-        for (int s = 1; s < count; s++) pair_span(dimension, &own, slot, spans[s]);
+        pair_span(dimension, sheared, &own, slot, (Span){slot + 1, spans[0].to});
+        for (int s = 1; s < count; s++) pair_span(dimension, sheared, &own, slot, spans[s]);
     }
     engine->list.pairs = own.list.pairs;
 }
 
+KERNEL void pair_cell(const int dimension, Engine *engine, size_t cell, const Span *spans,
+                      int count) {
+    if (engine->sheared)
+        pair_cell_in(dimension, 1, engine, cell, spans, count);
+    else
+        pair_cell_in(dimension, 0, engine, cell, spans, count);
+}
+
 // The pairs of the half list that may meet soon: nearer than contact + the inner skin.
-KERNEL void prune_pairs(const int dimension, Engine *engine) {
+KERNEL void prune_pairs_in(const int dimension, const int sheared, Engine *engine) {
     const Engine own = *engine;
     const NeighbourList *list = &own.list;
-    const Sieve sieve = sieve_of(dimension, &own);
+    const Sieve sieve = sieve_of(dimension, sheared, &own);
     const float skin = (float)(list->inner_skin * ROUNDED_UP + own.place_error);
     size_t near = 0;
     for (size_t p = 0; p < list->pairs; p += WIDE) {
@@ -69,11 +81,19 @@ KERNEL void prune_pairs(const int dimension, Engine *engine) {
         const Rows j = {own.sketch, {second, second + HALF}};
         const Wides contact2 = *(const Wides *)(list->pair_contact2 + p);
         const Wides range = wides_sqrt(contact2) * (float)(own.scale * ROUNDED_UP) + skin;
-        const unsigned bits = wides_less(distance2(dimension, &sieve, &i, &j), range * range);
+        const unsigned bits =
+            wides_less(distance2(dimension, sheared, &sieve, &i, &j), range * range);
         wides_pack_u32(list->near_first + near, bits, first);
         wides_pack_u32(list->near_second + near, bits, second);
         wides_pack(list->near_contact2 + near, bits, contact2);
         near += (unsigned)__builtin_popcount(bits);
     }
     engine->list.near = near;
+}
+
+KERNEL void prune_pairs(const int dimension, Engine *engine) {
+    if (engine->sheared)
+        prune_pairs_in(dimension, 1, engine);
+    else
+        prune_pairs_in(dimension, 0, engine);
 }

@@ -55,6 +55,8 @@ static const Option newtonian_rows[] = {
 typedef struct EnginePropagator {
     Propagator base;
     Engine *engine;
+    const State *state; // borrowed
+    double step_time;   // in the unit of the method
 } EnginePropagator;
 
 static const EventDriven *event_driven(const Settings *settings) {
@@ -152,10 +154,13 @@ static void event_driven_describe(const Settings *settings, const System *system
 }
 
 static Status propagator_create(Propagator **out, const PropagatorKind *kind,
-                                const EngineSettings *settings, State *state, RngKey key) {
+                                const EngineSettings *settings, double step_time, State *state,
+                                RngKey key) {
     EnginePropagator *propagator = NULL;
     TRY(NEW(propagator));
     propagator->base.kind = kind;
+    propagator->state = state;
+    propagator->step_time = step_time;
     const Status status = engine_create(&propagator->engine, settings, state, key);
     if (status != OK) {
         memory_free(propagator);
@@ -171,7 +176,32 @@ static Status event_driven_create(Propagator **out, const Settings *settings, St
                                    .windows_per_step = event_driven_ticks(settings),
                                    .redraw = 1,
                                    .stream = STREAM_VELOCITY};
-    return propagator_create(out, &propagator_event_driven, &engine, state, key);
+    const double step_time =
+        event_driven_tick(settings, &state->system) * (double)engine.windows_per_step;
+    return propagator_create(out, &propagator_event_driven, &engine, step_time, state, key);
+}
+
+// Of a strain in one window, with which images across y move by little.
+static const double STRAIN_MOST = 0.02;
+
+static Status event_driven_check_drive(const Settings *settings, const System *system,
+                                       const Drive *drive) {
+    const double strain = flow_fastest(&drive->flow) * event_driven_tick(settings, system);
+    const Box box = system_box(system);
+    const double most = fmin(STRAIN_MOST, 0.25 * box.edge[0] / box.edge[1]);
+    if (strain <= most) return OK;
+    return status_fail(BAD_DATA,
+                       "%s strains by %.3g in a window of %g d sqrt(m/kT), more than %.3g; take a "
+                       "shorter thermostat_interval",
+                       flow_words((char[FLOW_WORDS_SIZE]){0}, &drive->flow), strain,
+                       event_driven_flight(settings), most);
+}
+
+static Status event_driven_drive(Propagator *propagator, const Drive *drive, int64_t steps) {
+    EnginePropagator *driven = (EnginePropagator *)propagator;
+    const EngineFlow flow = {
+        .flow = &drive->flow, .step_time = driven->step_time, .begun = driven->state->step - steps};
+    return engine_shear(driven->engine, &flow);
 }
 
 static bool at_rest(const State *state) {
@@ -214,11 +244,20 @@ static void draw_velocities(State *state, RngKey key) {
     set_energy(state);
 }
 
+// What an earlier stage has sheared goes on at rest, in the box that it left behind.
+static void stop_flow(State *state) {
+    for (size_t i = 0; i < state->count; i++)
+        state->velocity[0][i] = state_peculiar_velocity(state, 0, i);
+    state->shear_rate = 0;
+    set_energy(state);
+}
+
 static Status newtonian_create(Propagator **out, const Settings *settings, State *state,
                                RngKey key) {
     const EngineSettings engine = {.window = newtonian(settings)->window, .windows_per_step = 1};
     if (at_rest(state)) draw_velocities(state, key);
-    return propagator_create(out, &propagator_newtonian, &engine, state, key);
+    if (state->shear_rate != 0) stop_flow(state);
+    return propagator_create(out, &propagator_newtonian, &engine, engine.window, state, key);
 }
 
 Engine *propagator_engine(Propagator *propagator) {
@@ -247,6 +286,9 @@ const PropagatorKind propagator_event_driven = {
     .check = event_driven_check,
     .flies = true,
     .thermostatted = true,
+    .leans = true,
+    .drives = DRIVE_FLOW,
+    .check_drive = event_driven_check_drive,
     .tick = event_driven_tick,
     .flight_time = event_driven_flight,
     .ticks_per_step = event_driven_ticks,
@@ -254,6 +296,7 @@ const PropagatorKind propagator_event_driven = {
     .memory = engine_memory,
     .describe = event_driven_describe,
     .create = event_driven_create,
+    .drive = event_driven_drive,
     .advance = advance,
     .free = release,
 };
@@ -267,6 +310,7 @@ const PropagatorKind propagator_newtonian = {
     .options = {newtonian_rows, sizeof newtonian_rows / sizeof *newtonian_rows, sizeof(Newtonian)},
     .check = newtonian_check,
     .flies = true,
+    .leans = true,
     .tick = newtonian_tick,
     .flight_time = newtonian_flight,
     .ticks_per_step = newtonian_ticks,

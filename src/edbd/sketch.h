@@ -142,10 +142,11 @@ KERNEL void sketch_separate_2d(const Rows *i, const Rows *j, Wides r[4], Wides g
 // What does not change in a window.
 typedef struct Sieve {
     Wides edge[3], half_edge[3];
-    Wides scale2, error; // pairs with r.g > scale2 contact^2 + error do not meet
+    Wides offset, offset_then; // of the images above: now, and two windows on
+    Wides scale2, error;       // pairs with r.g > scale2 contact^2 + error do not meet
 } Sieve;
 
-KERNEL Sieve sieve_of(const int dimension, const Engine *engine) {
+KERNEL Sieve sieve_of(const int dimension, const int sheared, const Engine *engine) {
     const double scale = engine->scale + engine->growth * engine->settings.window;
     Sieve sieve = {.scale2 = wides_all((float)(scale * scale)),
                    .error = wides_all(engine->sketch_error)};
@@ -153,18 +154,27 @@ KERNEL Sieve sieve_of(const int dimension, const Engine *engine) {
         sieve.edge[a] = wides_all((float)engine->edge[a]);
         sieve.half_edge[a] = sieve.edge[a] * 0.5f;
     }
+    if (sheared) {
+        const double way = 2 * engine->settings.window * engine->image_velocity;
+        sieve.offset = wides_all((float)engine->offset);
+        sieve.offset_then = wides_all((float)(engine->offset + way));
+    }
     return sieve;
 }
 
 // Which of WIDE pairs may meet between the part `gone` of two windows and the end of the first, one
 // bit each.
-KERNEL unsigned may_meet(const int dimension, const Sieve *sieve, const Rows *i, const Rows *j,
-                         Wides contact2, const float *gone) {
+KERNEL unsigned may_meet(const int dimension, const int sheared, const Sieve *sieve, const Rows *i,
+                         const Rows *j, Wides contact2, const float *gone) {
     Wides r[4], g[4], product = {0};
     if (dimension == 2)
         sketch_separate_2d(i, j, r, g);
     else
         sketch_separate_3d(i, j, r, g);
+    if (sheared) {
+        g[0] = wides_lean(g[0], r[1], sieve->half_edge[1], sieve->offset_then);
+        r[0] = wides_lean(r[0], r[1], sieve->half_edge[1], sieve->offset);
+    }
     for (int a = 0; a < dimension; a++) {
         wides_take_nearest(&r[a], &g[a], sieve->edge[a], sieve->half_edge[a]);
         if (gone) {
@@ -177,12 +187,14 @@ KERNEL unsigned may_meet(const int dimension, const Sieve *sieve, const Rows *i,
 }
 
 // Squares of the distances of WIDE pairs.
-KERNEL Wides distance2(const int dimension, const Sieve *sieve, const Rows *i, const Rows *j) {
+KERNEL Wides distance2(const int dimension, const int sheared, const Sieve *sieve, const Rows *i,
+                       const Rows *j) {
     Wides r[4], g[4], r2 = {0};
     if (dimension == 2)
         sketch_separate_2d(i, j, r, g);
     else
         sketch_separate_3d(i, j, r, g);
+    if (sheared) r[0] = wides_lean(r[0], r[1], sieve->half_edge[1], sieve->offset);
     for (int a = 0; a < dimension; a++) {
         r[a] = wides_nearest(r[a], sieve->edge[a]);
         r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];

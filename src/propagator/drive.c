@@ -133,6 +133,20 @@ double flow_rate(const Flow *flow, double from, double to) {
     return (table_strain(times, rates, to) - table_strain(times, rates, from)) / (to - from);
 }
 
+static double magnitude(double x) {
+    return x < 0 ? -x : x;
+}
+
+double flow_fastest(const Flow *flow) {
+    double fastest = oscillates(flow) ? flow->oscillation.amplitude * flow->oscillation.frequency
+                                      : magnitude(flow->rate);
+    for (int64_t k = 0; k < flow->table.rates.count; k++) {
+        const double rate = magnitude(flow->table.rates.values[k]);
+        if (rate > fastest) fastest = rate;
+    }
+    return fastest;
+}
+
 double flow_strain(const Flow *flow, double time) {
     if (oscillates(flow))
         return flow->oscillation.amplitude * sine(flow->oscillation.frequency * time, false);

@@ -42,4 +42,5 @@ const char *flow_words(char words[FLOW_WORDS_SIZE], const Flow *flow);
 
 // Mean rate from one time of the stage to another, in d^2/D0: what the flow is kept at in between.
 double flow_rate(const Flow *flow, double from, double to);
+double flow_fastest(const Flow *flow);             // the largest |rate| there may be
 double flow_strain(const Flow *flow, double time); // since the stage began
