@@ -269,6 +269,128 @@ START_TEST(the_lattice_of_wave_vectors_tilts_with_the_box) {
 }
 END_TEST
 
+typedef struct Cell {
+    double along[2], low, high;
+} Cell;
+
+// Re rho_a*(q) rho_b(q(t)) over all vectors of the lattice at tick t that lie in the cell.
+static double slow_products(const Walked *w, const Cell *cell, int64_t t, int64_t lag, Range a,
+                            Range b, double *members) {
+    const double *edge = w->state->box.edge, strain = strain_at(t + lag) - strain_at(t);
+    double sum = 0;
+    for (int x = 0; x <= 12; x++) {
+        const double along = 2 * PI * x / edge[0];
+        const int middle = (int)rint(strain_at(t) * along * edge[1] / (2 * PI));
+        for (int y = x == 0 ? 1 : middle - 12; y <= middle + 12; y++) {
+            const double q[3] = {along, 2 * PI * y / edge[1] - strain_at(t) * along, 0};
+            const double length = hypot(q[0], q[1]);
+            if (length < cell->low || length >= cell->high) continue;
+            if (fabs(q[0] * cell->along[0] + q[1] * cell->along[1]) < length * cos(PI / 9))
+                continue;
+            double modes[2][2] = {{0}};
+            for (size_t i = 0; i < WALKERS; i++) {
+                const double phase[2] = {advected_phase(q, 0, t, i),
+                                         advected_phase(q, strain, t + lag, i)};
+                if (i >= a.begin && i < a.end) {
+                    modes[0][0] += cos(phase[0]);
+                    modes[0][1] += sin(phase[0]);
+                }
+                if (i >= b.begin && i < b.end) {
+                    modes[1][0] += cos(phase[1]);
+                    modes[1][1] += sin(phase[1]);
+                }
+            }
+            sum += modes[0][0] * modes[1][0] + modes[0][1] * modes[1][1];
+            ++*members;
+        }
+    }
+    return sum;
+}
+
+static double slow_advected(const Walked *w, const Lags *lags, size_t group, size_t time,
+                            const Cell *cell, size_t a, size_t b) {
+    const int64_t lag = time == 0 ? 0 : lags->ticks[time - 1];
+    double sum = 0, members = 0, none = 0;
+    for (int64_t t = 0; t + lag <= TICKS; t++) {
+        if (!is_origin(lags, group * lags->count, t)) continue;
+        const Range one = range_of(w->state, a), other = range_of(w->state, b);
+        sum += 0.5 * slow_products(w, cell, t, lag, one, other, &members) +
+               0.5 * slow_products(w, cell, t, lag, other, one, &none);
+    }
+    return sum / members / WALKERS;
+}
+
+// _i: bit 0 dimension, bit 1 waiting strains.
+START_TEST(waves_of_the_density_go_with_the_flow) {
+    static const double ways[4][2] = {
+        {1, 0}, {0, 1}, {M_SQRT1_2, M_SQRT1_2}, {M_SQRT1_2, -M_SQRT1_2}};
+    static const size_t pairs[3][2] = {{0, 0}, {0, 1}, {1, 1}};
+    const ObservableKind *kind = &observable_advected_scattering;
+    Walked w;
+    begin(&w, 2 + (_i & 1));
+    Settings settings = settings_of(&kind->options);
+    set_list(&settings, kind, "wave_numbers", (OptionReals){2, {1.6, 3.1}});
+    set_number(&settings, &kind->options, "cell.width", 1.2);
+    set_number(&settings, &kind->options, "cell.angle", 20);
+    set_number(&settings, &kind->options, "cell.vectors", 200);
+    set_number(&settings, &kind->options, "times.per_decade", 3);
+    set_number(&settings, &kind->options, "origins", 4);
+    if (_i & 2) set_list(&settings, kind, "waiting_strain", WAITING_STRAIN);
+    observe_walk(&w, kind, &settings);
+    const Lags lags = lags_with(&w, 3, 4, _i & 2);
+    const size_t groups = lags.waits ? lags.waits : 1, times = lags.count + 1;
+    const ResultSeries *f = series_of(w.results, "quiescent", "advected_scattering");
+    ck_assert_uint_eq(f->size, 4 * 8 * groups * times);
+    for (size_t cell = 0; cell < 8; cell++) {
+        const double number = cell % 2 ? 3.1 : 1.6;
+        const Cell where = {{ways[cell / 2][0], ways[cell / 2][1]}, number - 0.6, number + 0.6};
+        for (size_t e = 0; e < groups * times; e++) {
+            double total = 0;
+            for (size_t p = 0; p < 3; p++) {
+                const double slow = slow_advected(&w, &lags, e / times, e % times, &where,
+                                                  pairs[p][0], pairs[p][1]);
+                const double got = f->values[(p * 8 + cell) * groups * times + e];
+                ck_assert(isnan(slow) ? isnan(got) : fabs(got - slow) < 1e-9);
+                total += p == 1 ? 2 * slow : slow;
+            }
+            const double got = f->values[(24 + cell) * groups * times + e];
+            ck_assert(isnan(total) ? isnan(got) : fabs(got - total) < 1e-9);
+        }
+    }
+    forget(&w);
+}
+END_TEST
+
+// What does not move but with the flow is remembered for ever.
+static void only_flow(State *state, int64_t tick) {
+    for (size_t i = 0; i < WALKERS; i++) {
+        walk[tick][0][i] = walk[0][0][i] + strain_at(tick) * walk[0][1][i];
+        for (int a = 1; a < 3; a++) walk[tick][a][i] = walk[0][a][i];
+    }
+    walk_to(state, tick);
+}
+
+START_TEST(an_affine_flow_forgets_nothing) {
+    const ObservableKind *kind = &observable_advected_scattering;
+    Walked w;
+    begin(&w, 2);
+    Settings settings = settings_of(&kind->options);
+    set_list(&settings, kind, "wave_numbers", (OptionReals){1, {3.1}});
+    set_number(&settings, &kind->options, "cell.vectors", 5);
+    set_list(&settings, kind, "waiting_strain", WAITING_STRAIN);
+    ck_assert_int_eq(kind->check(&settings, &w.system, &w.clock), OK);
+    Observer *observer = new_observer(kind, &settings, w.state, &w.clock);
+    watch(observer, w.state, only_flow, -1, TICKS);
+    w.results = written(observer, w.state);
+    kind->free(observer);
+    const ResultSeries *f = series_of(w.results, "quiescent", "advected_scattering");
+    const size_t times = f->axis[4].count;
+    for (size_t e = 0; e < f->size; e++)
+        ck_assert_double_eq_tol(f->values[e], f->values[e - e % times], 1e-9);
+    forget(&w);
+}
+END_TEST
+
 static void expect_refusal(const Walked *w, const ObservableKind *kind, const Settings *settings,
                            const char *words) {
     ck_assert_int_eq(kind->check(settings, &w->system, &w->clock), BAD_DATA);
@@ -324,6 +446,8 @@ int main(void) {
     tcase_add_loop_test(tests, a_wave_vector_goes_with_the_flow, 0, 4);
     tcase_add_loop_test(tests, non_affine_displacements_agree_with_their_definition, 0, 4);
     tcase_add_loop_test(tests, the_lattice_of_wave_vectors_tilts_with_the_box, 0, 2);
+    tcase_add_loop_test(tests, waves_of_the_density_go_with_the_flow, 0, 4);
+    tcase_add_test(tests, an_affine_flow_forgets_nothing);
     tcase_add_test(tests, what_is_of_rest_says_so_in_a_flow);
     tcase_add_test(tests, a_waiting_strain_needs_a_steady_rate);
     tcase_add_test(tests, the_settings_of_every_observable_have_room);
