@@ -33,3 +33,12 @@
 //   zero_shear_viscosity and _window; viscosity, a series          of stress_wandering
 // With several species, diffusion is given for all particles and, with _NAME, for each species.
 Status analysis_derive(Results *results, const System *system);
+
+// Of the quantities of many states over an axis of packing fractions (campaign/combine.h), for each
+// OBSERVABLE_relaxation_time:
+//   OBSERVABLE_critical_packing_fraction, _critical_exponent, _critical_misfit   gamma free
+//   OBSERVABLE_critical_packing_fraction_at, a series over exponents             gamma given
+//   OBSERVABLE_critical_scan, a series over the first packing fraction used
+// of OBSERVABLE_scaled:  OBSERVABLE_scaled_spread, over scaled times
+// of OBSERVABLE_plateau: OBSERVABLE_plateau_critical, _plateau_amplitude
+Status analysis_derive_sweep(Results *results);

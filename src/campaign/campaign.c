@@ -2,6 +2,7 @@
 // All points of a run file.
 #include "campaign/campaign.h"
 
+#include "analysis/analysis.h"
 #include "base/memory.h"
 #include "base/seconds.h"
 #include "base/text.h"
@@ -326,6 +327,7 @@ static Status combine(const Campaign *campaign, Results *all) {
 
 static Status write_all(Campaign *campaign, Results *all) {
     TRY(combine(campaign, all));
+    TRY(analysis_derive_sweep(all));
     TRY(store_write_results(campaign->store, all));
     if (report_write(all, store_directory(campaign->store)) != OK)
         snprintf(campaign->note, sizeof campaign->note, "%s", status_sentence());

@@ -66,6 +66,50 @@ static Status put_scalars(Results *all, const Axes *axes, size_t point, const Re
     return OK;
 }
 
+// Wave numbers of shells and times in whole steps depend a little on the box and the step.
+static const double NEAR = 0.02;
+
+static bool same_axis(const ResultAxis *a, const ResultAxis *b) {
+    if (strcmp(a->name, b->name) != 0 || a->count != b->count) return false;
+    for (size_t i = 0; i < a->count; i++) {
+        if (a->labels && strcmp(a->labels[i], b->labels[i]) != 0) return false;
+        if (a->values && !(fabs(a->values[i] - b->values[i]) <= NEAR * fabs(a->values[i])))
+            return false;
+    }
+    return true;
+}
+
+// The axes of the sweep, then those of the series. False if they are too many, or not those that
+// the first point had: what each point measures at places of its own cannot stand side by side.
+static bool shape_series(ResultSeries *shape, const Results *all, const Axes *axes,
+                         const ResultSeries *series) {
+    if (axes->count + series->axes > RESULT_AXES) return false;
+    const ResultSeries *there = results_find_series(all, series->stage, series->observable);
+    if (there && there->axes != axes->count + series->axes) return false;
+    *shape = *series;
+    memcpy(shape->axis, axes->axis, axes->count * sizeof *shape->axis);
+    for (size_t a = 0; a < series->axes; a++) {
+        const ResultAxis *axis = &series->axis[a];
+        shape->axis[axes->count + a] = *axis;
+        if (there && !same_axis(&there->axis[axes->count + a], axis)) return false;
+    }
+    shape->axes = axes->count + series->axes;
+    return true;
+}
+
+static Status put_series(Results *all, const Axes *axes, size_t point, const Results *one,
+                         const ResultSeries *series) {
+    ResultSeries shape;
+    if (!shape_series(&shape, all, axes, series)) return OK;
+    for (size_t r = 0; r < one->replicas; r++) {
+        for (size_t e = 0; e < series->size; e++) {
+            TRY(results_put_element(all, &shape, r, point * series->size + e,
+                                    series->values[r * series->size + e]));
+        }
+    }
+    return OK;
+}
+
 // The worst of all points.
 static Status put_health(Results *all, const Results *one) {
     for (size_t i = 0; i < one->health_count; i++) {
@@ -84,6 +128,9 @@ Status combine_point(Results *all, const ConfigPoints *points, size_t point, con
     Axes axes;
     Status status = make_axes(&axes, points);
     if (status == OK) status = put_scalars(all, &axes, point, one);
+    for (size_t i = 0; i < one->series_count && status == OK; i++) {
+        status = put_series(all, &axes, point, one, &one->series[i]);
+    }
     free_axes(&axes);
     return status == OK ? put_health(all, one) : status;
 }

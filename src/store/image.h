@@ -4,12 +4,12 @@
 // takes no memory. Internal to the store.
 #pragma once
 
-#include "base/status.h"
+#include "results/results.h"
 
 #include <hdf5.h>
 #include <stdint.h>
 
-enum { IMAGE_RANK = 5 };
+enum { IMAGE_RANK = RESULT_AXES + 1 }; // a series of all replicas
 
 typedef struct Image {
     hid_t file;

@@ -309,6 +309,31 @@ static void write_results(Store *store) {
     results_free(results);
 }
 
+// As many axes as there may be, and replicas before them.
+START_TEST(all_axes_come_back) {
+    enum { SIZE = 1 << RESULT_AXES };
+    static const double two[2] = {1, 2};
+    static const char *const names[RESULT_AXES] = {"a", "b", "c", "d", "e"};
+    double values[SIZE];
+    ResultSeries shape = {.stage = "stage", .observable = "cube", .axes = RESULT_AXES};
+    for (size_t a = 0; a < RESULT_AXES; a++)
+        shape.axis[a] = (ResultAxis){.name = names[a], .unit = "", .count = 2, .values = two};
+    for (int i = 0; i < SIZE; i++) values[i] = i;
+    Results *results = NULL, *found = NULL;
+    Store *store = open_run();
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(results_put_series(results, &shape, 0, values), OK);
+    ck_assert_msg(store_write_results(store, results) == OK, "%s", status_sentence());
+    ck_assert_msg(store_read_results(&found, path_of("results.h5")) == OK, "%s", status_sentence());
+    const ResultSeries *there = results_find_series(found, "stage", "cube");
+    ck_assert_uint_eq(there->axes, RESULT_AXES);
+    ck_assert_mem_eq(there->values, values, sizeof values);
+    results_free(found);
+    results_free(results);
+    store_close(store);
+}
+END_TEST
+
 START_TEST(results_come_back_as_they_were) {
     Store *store = open_run();
     write_results(store);
@@ -670,6 +695,7 @@ int main(void) {
     tcase_add_test(tests, every_flipped_bit_and_every_cut_of_a_checkpoint_is_seen);
     tcase_add_test(tests, a_checkpoint_of_another_plan_or_replica_is_refused);
     tcase_add_test(tests, results_come_back_as_they_were);
+    tcase_add_test(tests, all_axes_come_back);
     tcase_add_test(tests, any_number_of_results_is_kept);
     tcase_add_test(tests, the_same_results_are_the_same_bytes);
     tcase_add_test(tests, results_cut_or_changed_are_refused_in_a_sentence);

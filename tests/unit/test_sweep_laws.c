@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Laws of a sweep over packing fractions from tables whose law is known.
+#include "analysis/analysis.h"
+#include "observe.h"
+#include "rng/rng.h"
+
+#include <stdio.h>
+
+enum { REPLICAS = 8, STATES = 6, ROWS = 40, SCALED = 5 };
+static const double CRITICAL = 0.7948, GAMMA = 2.5;
+static const double packing[STATES] = {0.77, 0.775, 0.78, 0.785, 0.7875, 0.79};
+
+static Results *new_results(void) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, REPLICAS), OK);
+    return results;
+}
+
+// [packing fraction][wave number]
+static void put(Results *results, const char *name, double values[REPLICAS][STATES][ROWS],
+                const double phi[STATES]) {
+    double waves[ROWS];
+    for (int row = 0; row < ROWS; row++) waves[row] = row + 1;
+    ResultSeries shape = {
+        .stage = "quiescent",
+        .axes = 2,
+        .axis = {{.name = "packing_fraction", .unit = "", .count = STATES, .values = phi},
+                 {.name = "wave_number", .unit = "1/d", .count = ROWS, .values = waves}}};
+    snprintf(shape.observable, sizeof shape.observable, "%s", name);
+    for (size_t r = 0; r < REPLICAS; r++) {
+        ck_assert_int_eq(results_put_series(results, &shape, r, &values[r][0][0]), OK);
+    }
+}
+
+// Relaxation times with noise of each state and replica: `noise` of their size.
+static Results *power_laws(double noise) {
+    static double tau[REPLICAS][STATES][ROWS];
+    Rng rng = rng_open((RngKey){.seed = 5}, STREAM_PACKING, 0, 0);
+    for (size_t r = 0; r < REPLICAS; r++) {
+        for (int s = 0; s < STATES; s++) {
+            for (int row = 0; row < ROWS; row++) {
+                tau[r][s][row] =
+                    (row + 1) * pow(CRITICAL - packing[s], -GAMMA) * (1 + noise * rng_normal(&rng));
+            }
+        }
+    }
+    Results *results = new_results();
+    put(results, "self_scattering_relaxation_time", tau, packing);
+    ck_assert_int_eq(analysis_derive_sweep(results), OK);
+    return results;
+}
+
+static Estimate found(const Results *results, const char *quantity, size_t element) {
+    char name[RESULT_NAME];
+    snprintf(name, sizeof name, "self_scattering_%s", quantity);
+    return results_series_estimate(results, series_of(results, "quiescent", name), element);
+}
+
+START_TEST(a_power_law_is_found) {
+    enum { EXPONENTS = 21, GIVEN = 5 };
+    Results *results = power_laws(0);
+    ck_assert_double_eq_tol(found(results, "critical_packing_fraction", 7).value, CRITICAL, 1e-7);
+    ck_assert_double_eq_tol(found(results, "critical_exponent", 7).value, GAMMA, 1e-4);
+    ck_assert_double_lt(found(results, "critical_misfit", 7).value, 1e-5);
+    const ResultSeries *given =
+        series_of(results, "quiescent", "self_scattering_critical_packing_fraction_at");
+    ck_assert_uint_eq(given->axis[1].count, EXPONENTS);
+    ck_assert_double_eq_tol(given->axis[1].values[GIVEN], GAMMA, 1e-12);
+    const size_t row = 7 * EXPONENTS;
+    ck_assert_double_eq_tol(results_series_estimate(results, given, row + GIVEN).value, CRITICAL,
+                            1e-7);
+    // A larger exponent puts the transition further off.
+    ck_assert_double_gt(results_series_estimate(results, given, row + GIVEN + 1).value,
+                        CRITICAL + 1e-4);
+    for (size_t s = 0; s + 4 <= STATES; s++)
+        ck_assert_double_eq_tol(found(results, "critical_scan", 7 * STATES + s).value, CRITICAL,
+                                1e-6);
+    ck_assert(isnan(found(results, "critical_scan", 7 * STATES + STATES - 3).value));
+    results_free(results);
+}
+END_TEST
+
+// Deviations over their errors, squared: 7/5 in the mean for errors of eight values each.
+START_TEST(errors_are_what_they_say) {
+    Results *results = power_laws(0.05);
+    double free = 0, given = 0;
+    for (size_t row = 0; row < ROWS; row++) {
+        const Estimate one = found(results, "critical_packing_fraction", row);
+        const Estimate other = found(results, "critical_packing_fraction_at", row * 21 + 5);
+        free += pow((one.value - CRITICAL) / one.error, 2) / ROWS;
+        given += pow((other.value - CRITICAL) / other.error, 2) / ROWS;
+        ck_assert_double_lt(other.error, one.error); // what is known need not be found
+        ck_assert_double_lt(one.error, 0.003);
+    }
+    ck_assert_msg(free > 0.6 && free < 2.8, "%g", free);
+    ck_assert_msg(given > 0.6 && given < 2.8, "%g", given);
+    results_free(results);
+}
+END_TEST
+
+START_TEST(no_transition_is_seen_where_there_is_none) {
+    static double tau[REPLICAS][STATES][ROWS];
+    for (size_t r = 0; r < REPLICAS; r++) {
+        for (int s = 0; s < STATES; s++) {
+            for (int row = 0; row < ROWS; row++) tau[r][s][row] = exp(10 * packing[s]);
+        }
+    }
+    Results *results = new_results();
+    put(results, "self_scattering_relaxation_time", tau, packing);
+    ck_assert_int_eq(analysis_derive_sweep(results), OK);
+    ck_assert(isnan(found(results, "critical_packing_fraction", 0).value));
+    results_free(results);
+}
+END_TEST
+
+// Where the plateau is below 1/e the function falls to it before its last decay.
+START_TEST(times_before_the_plateau_are_left_alone) {
+    static double tau[REPLICAS][STATES][ROWS], plateau[REPLICAS][STATES][ROWS];
+    for (size_t r = 0; r < REPLICAS; r++) {
+        for (int s = 0; s < STATES; s++) {
+            for (int row = 0; row < ROWS; row++) {
+                tau[r][s][row] = pow(CRITICAL - packing[s], -GAMMA);
+                plateau[r][s][row] = s < 3 ? (double)NAN : row == 0 ? 0.3 : 0.6;
+            }
+        }
+    }
+    Results *results = new_results();
+    put(results, "self_scattering_relaxation_time", tau, packing);
+    put(results, "self_scattering_plateau", plateau, packing);
+    ck_assert_int_eq(analysis_derive_sweep(results), OK);
+    ck_assert(isnan(found(results, "critical_packing_fraction", 0).value));
+    ck_assert_double_eq_tol(found(results, "critical_packing_fraction", 1).value, CRITICAL, 1e-7);
+    results_free(results);
+}
+END_TEST
+
+// The lower four states relax, the others have plateaus above f_c.
+START_TEST(plateaus_of_a_glass_rise_as_a_square_root) {
+    static const double phi[STATES + 3] = {0.77, 0.775, 0.78, 0.785, 0.80, 0.81, 0.82};
+    enum { RELAX = 4, ALL = 7 };
+    Results *results = new_results();
+    const double waves[1] = {6};
+    ResultSeries shape = {
+        .stage = "quiescent",
+        .axes = 2,
+        .axis = {{.name = "packing_fraction", .unit = "", .count = ALL, .values = phi},
+                 {.name = "wave_number", .unit = "1/d", .count = 1, .values = waves}}};
+    for (size_t r = 0; r < REPLICAS; r++) {
+        double tau[ALL], f[ALL];
+        for (int s = 0; s < ALL; s++) {
+            tau[s] = s < RELAX ? pow(CRITICAL - phi[s], -GAMMA) : (double)NAN;
+            f[s] = s < RELAX ? 0.5 : 0.59 + 1.2 * sqrt(phi[s] / CRITICAL - 1);
+        }
+        strcpy(shape.observable, "self_scattering_relaxation_time");
+        ck_assert_int_eq(results_put_series(results, &shape, r, tau), OK);
+        strcpy(shape.observable, "self_scattering_plateau");
+        ck_assert_int_eq(results_put_series(results, &shape, r, f), OK);
+    }
+    ck_assert_int_eq(analysis_derive_sweep(results), OK);
+    ck_assert_double_eq_tol(found(results, "plateau_critical", 0).value, 0.59, 1e-5);
+    ck_assert_double_eq_tol(found(results, "plateau_amplitude", 0).value, 1.2, 1e-4);
+    results_free(results);
+}
+END_TEST
+
+START_TEST(one_master_curve_has_no_spread) {
+    static const double times[SCALED] = {0.01, 0.1, 1, 2, 10};
+    Results *results = new_results();
+    const ResultSeries shape = {
+        .stage = "quiescent",
+        .observable = "self_scattering_scaled",
+        .axes = 2,
+        .axis = {{.name = "packing_fraction", .unit = "", .count = STATES, .values = packing},
+                 {.name = "scaled_time", .unit = "", .count = SCALED, .values = times}}};
+    for (size_t r = 0; r < REPLICAS; r++) {
+        double f[STATES][SCALED];
+        for (int s = 0; s < STATES; s++) {
+            for (int k = 0; k < SCALED; k++)
+                f[s][k] = exp(-times[k]) + (k == 0 ? 0.1 * (s % 2) : 0);
+        }
+        ck_assert_int_eq(results_put_series(results, &shape, r, &f[0][0]), OK);
+    }
+    ck_assert_int_eq(analysis_derive_sweep(results), OK);
+    ck_assert_double_eq_tol(found(results, "scaled_spread", 0).value, 0.05, 1e-12);
+    for (size_t k = 1; k < SCALED; k++)
+        ck_assert_double_lt(found(results, "scaled_spread", k).value, 1e-12);
+    results_free(results);
+}
+END_TEST
+
+int main(void) {
+    Suite *suite = suite_create("sweep_laws");
+    TCase *c = tcase_create("sweep_laws");
+    tcase_set_timeout(c, 60);
+    tcase_add_test(c, a_power_law_is_found);
+    tcase_add_test(c, errors_are_what_they_say);
+    tcase_add_test(c, no_transition_is_seen_where_there_is_none);
+    tcase_add_test(c, times_before_the_plateau_are_left_alone);
+    tcase_add_test(c, plateaus_of_a_glass_rise_as_a_square_root);
+    tcase_add_test(c, one_master_curve_has_no_spread);
+    suite_add_tcase(suite, c);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed > 0;
+}
