@@ -42,6 +42,11 @@ void box_shear(Box *box, double displacement) {
     }
 }
 
+void box_lean(Box *box, double offset, double strain) {
+    box->offset = offset;
+    box->turns = (int64_t)rint((strain * box->edge[1] - offset) / box->edge[0]);
+}
+
 bool box_is_rectangular(const Box *box) {
     return box->offset == 0 && box->turns == 0;
 }

@@ -32,6 +32,8 @@ static inline double box_displacement(const Box *box) {
 double box_strain(const Box *box); // accumulated
 // Displaces the images above by so much more, less than half an edge[0].
 void box_shear(Box *box, double displacement);
+// As it leant when its offset and strain were these.
+void box_lean(Box *box, double offset, double strain);
 bool box_is_rectangular(const Box *box);
 
 // Where a place in the box lies along its edges, of which the second leans over by the offset:

@@ -101,7 +101,9 @@ static Status load_frame(Replay *replay, int64_t tick) {
                            "same 'perrin run' goes on with it",
                            replay->path, (long long)index, replay->stage->name);
     }
-    state_place(replay->state, frame.position, frame.image, frame.orientation);
+    Box box = replay->state->box;
+    box_lean(&box, frame.edges[1][0], frame.strain);
+    state_place(replay->state, &box, frame.position, frame.image, frame.orientation);
     return OK;
 }
 

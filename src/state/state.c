@@ -45,14 +45,16 @@ Status state_create(State **out, const System *system) {
     return OK;
 }
 
-void state_place(State *state, const double *position, const int32_t *image,
+void state_place(State *state, const Box *box, const double *position, const int32_t *image,
                  const double *orientation) {
+    state->box = *box;
     for (size_t i = 0; i < state->count; i++) {
         for (size_t a = 0; a < 3; a++) {
             state->position[a][i] = position[3 * i + a];
             state->image[a][i] = image[3 * i + a];
             if (state->oriented) state->orientation[a][i] = orientation[3 * i + a];
         }
+        state->image[0][i] -= (int32_t)(state->image[1][i] * box->turns);
     }
 }
 

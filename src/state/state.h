@@ -48,8 +48,9 @@ static inline double state_peculiar_velocity(const State *state, int axis, size_
 }
 
 // Puts the particles where a stored configuration has them, in rows of three: folded positions,
-// image counts and, where they have axes, orientations. Velocities stay what they are.
-void state_place(State *state, const double *position, const int32_t *image,
+// image counts and, where they have axes, orientations; image counts are those of the box that
+// leans by its offset, without whole turns. Velocities stay what they are.
+void state_place(State *state, const Box *box, const double *position, const int32_t *image,
                  const double *orientation);
 
 double state_packing_fraction(const State *state);

@@ -28,8 +28,11 @@ void frame_take(FrameData *frame, const State *state, int64_t step, double time)
             frame->image[3 * i + a] = state->image[a][i];
             if (frame->orientation) frame->orientation[3 * i + a] = state->orientation[a][i];
         }
+        frame->image[3 * i] += (int32_t)(state->image[1][i] * state->box.turns);
     }
     for (int a = 0; a < 3; a++) frame->edges[a][a] = state->box.edge[a];
+    frame->edges[1][0] = state->box.offset;
+    frame->strain = box_strain(&state->box);
     frame->step = step;
     frame->time = time;
 }
@@ -44,6 +47,7 @@ bool frame_same(const FrameData *a, const FrameData *b) {
            memcmp(a->position, b->position, 3 * a->count * sizeof *a->position) == 0 &&
            memcmp(a->image, b->image, 3 * a->count * sizeof *a->image) == 0 &&
            memcmp(a->edges, b->edges, sizeof a->edges) == 0 && a->step == b->step &&
+           memcmp(&a->strain, &b->strain, sizeof a->strain) == 0 &&
            memcmp(&a->time, &b->time, sizeof a->time) == 0;
 }
 
@@ -54,7 +58,7 @@ typedef struct Piece {
     uint64_t place;
 } Piece;
 
-enum { PIECES_MOST = 6 };
+enum { PIECES_MOST = 7 };
 
 // How many there are.
 static int list_pieces(Piece pieces[PIECES_MOST], const FrameData *frame, const Layout *layout,
@@ -68,9 +72,12 @@ static int list_pieces(Piece pieces[PIECES_MOST], const FrameData *frame, const 
     pieces[2] = (Piece){(void *)frame->edges, edges, layout->edges + k * edges};
     pieces[3] = (Piece){(void *)&frame->step, eight, layout->step + k * eight};
     pieces[4] = (Piece){(void *)&frame->time, eight, layout->time + k * eight};
-    if (!frame->orientation) return 5;
-    pieces[5] = (Piece){frame->orientation, vectors, layout->orientation + k * vectors};
-    return 6;
+    int count = 5;
+    if (frame->orientation)
+        pieces[count++] = (Piece){frame->orientation, vectors, layout->orientation + k * vectors};
+    if (layout->strain)
+        pieces[count++] = (Piece){(void *)&frame->strain, eight, layout->strain + k * eight};
+    return count;
 }
 
 // Of the frame's number and all its pieces; never 0, which says that nothing was written.

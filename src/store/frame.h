@@ -11,6 +11,7 @@ typedef struct FrameData {
     int32_t *image;      // [count][3]
     double *orientation; // [count][3], unit vectors; NULL where no species has a body axis
     double edges[3][3];
+    double strain;
     int64_t step;
     double time;
 } FrameData;

@@ -95,6 +95,21 @@ static Status write_moving(hid_t particles, Layout *layout, const State *state) 
     return OK;
 }
 
+// How far the box was sheared: an observable in the sense of H5MD.
+static Status write_strain(hid_t file, hid_t particles, Layout *layout) {
+    const ImageShape numbers = {REALS, 1, {layout->frames}};
+    hid_t observables, strain, position;
+    TRY(image_group(file, "observables", &observables));
+    TRY(write_element(observables, "strain", &strain, &numbers, &layout->strain));
+    position = H5Gopen2(particles, "position", H5P_DEFAULT);
+    if (position < 0) return status_fail(NO_MEMORY, "cannot build a trajectory in memory");
+    TRY(share_times(position, strain));
+    image_end(position);
+    image_end(strain);
+    image_end(observables);
+    return OK;
+}
+
 static Status write_fixed(hid_t group, const char *name, hid_t type, const Layout *layout,
                           const void *values, uint64_t *place) {
     const ImageShape shape = {type, 1, {layout->particles}};
@@ -154,6 +169,7 @@ static Status write_contents(hid_t file, Layout *layout, const State *state) {
     TRY(image_group(group, "trajectory", &particles));
     TRY(write_species(particles, layout, state));
     TRY(write_moving(particles, layout, state));
+    TRY(write_strain(file, particles, layout));
     TRY(image_room(perrin, "crc32c", &crcs, &layout->crc));
     image_end(particles);
     image_end(group);
@@ -162,8 +178,9 @@ static Status write_contents(hid_t file, Layout *layout, const State *state) {
 }
 
 static uint64_t first_room(const Layout *layout) {
-    const uint64_t places[] = {layout->position, layout->image, layout->edges,      layout->step,
-                               layout->time,     layout->crc,   layout->orientation};
+    const uint64_t places[] = {layout->position,    layout->image, layout->edges,
+                               layout->step,        layout->time,  layout->crc,
+                               layout->orientation, layout->strain};
     uint64_t first = places[0];
     for (size_t i = 1; i < sizeof places / sizeof *places; i++) {
         if (places[i] && places[i] < first) first = places[i];
@@ -215,7 +232,8 @@ Status layout_check(Layout *layout, const Seal *seal, const char *path) {
         inside(layout->mass, n, 8, size) && inside(layout->position, all, 24, size) &&
         inside(layout->image, all, 12, size) && inside(layout->edges, frames, 72, size) &&
         inside(layout->step, frames, 8, size) && inside(layout->time, frames, 8, size) &&
-        inside(layout->crc, frames, 4, size) && inside(layout->orientation, all, 24, size);
+        inside(layout->crc, frames, 4, size) && inside(layout->orientation, all, 24, size) &&
+        inside(layout->strain, frames, 8, size);
     if (fits) return OK;
     return status_fail(BAD_DATA, "'%s' is damaged: it claims more than it holds", path);
 }

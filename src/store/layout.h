@@ -16,6 +16,7 @@ typedef struct Layout {
     uint64_t species, diameter, mass; // places in the file, in bytes from its beginning
     uint64_t position, image, edges, step, time, crc;
     uint64_t orientation; // 0: no species has a body axis
+    uint64_t strain;      // 0: of a version that had no shear
 } Layout;
 
 // The H5MD file up to the frames, and where they go. `layout` has plan, replica and frames set.

@@ -40,7 +40,8 @@ typedef struct TrajectoryFrame {
     const double *position;    // [particles][3], folded, in d
     const int32_t *image;      // [particles][3]
     const double *orientation; // [particles][3], unit vectors; NULL unless oriented
-    double edges[3][3];        // of the box, in d
+    double edges[3][3];        // of the box, in d; [1][0] is the offset of a sheared one
+    double strain;
     int64_t step;
     double time;
 } TrajectoryFrame;

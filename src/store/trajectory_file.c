@@ -110,6 +110,7 @@ Status trajectory_file_frame(TrajectoryFile *file, int64_t index, TrajectoryFram
         .position = file->frame.position,
         .image = file->frame.image,
         .orientation = file->frame.orientation,
+        .strain = file->frame.strain,
         .step = file->frame.step,
         .time = file->frame.time,
     };
