@@ -2,11 +2,11 @@
 // The temperature that velocities have.
 #include "observables/temperature.h"
 
-// Twice the kinetic energy along an axis, in the frame of the centre of mass.
+// Twice the kinetic energy along an axis, in the frame of the centre of mass and of the flow.
 static double relative_motion(const State *state, int axis) {
     double mass = 0, momentum = 0, square = 0;
     for (size_t i = 0; i < state->count; i++) {
-        const double v = state->velocity[axis][i];
+        const double v = state_peculiar_velocity(state, axis, i);
         mass += state->mass[i];
         momentum += state->mass[i] * v;
         square += state->mass[i] * v * v;

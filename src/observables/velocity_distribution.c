@@ -102,7 +102,7 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
         const size_t species = state->species_of[i];
         uint64_t *counts = velocities->counts + species * 2 * velocities->half;
         for (int a = 0; a < state->box.dimension; a++) {
-            const double u = state->velocity[a][i] * sqrt(state->mass[i]);
+            const double u = state_peculiar_velocity(state, a, i) * sqrt(state->mass[i]);
             const double bin = floor(u / velocities->spacing) + half;
             if (bin >= 0 && bin < 2 * half) counts[(size_t)bin]++;
             velocities->samples[species]++;
