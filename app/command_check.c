@@ -73,6 +73,37 @@ static Status print_stage(const Plan *plan, size_t index) {
     return OK;
 }
 
+static bool observes(const Stage *stage, const char *observable) {
+    for (size_t k = 0; k < stage->observation_count; k++) {
+        if (strcmp(stage->observations[k].kind->name, observable) == 0) return true;
+    }
+    return false;
+}
+
+static bool is_round(const System *system) {
+    for (size_t s = 0; s < system->species_count; s++) {
+        const int64_t shape = system->species[s].shape;
+        if (shape != SHAPE_DISC && shape != SHAPE_SPHERE) return false;
+    }
+    return true;
+}
+
+// What the results will not be able to say of the last stage.
+static void print_equilibrium(const Plan *plan) {
+    const Stage *last = &plan->stages[plan->stage_count - 1];
+    if (drive_kinds(&last->drive)) return; // not meant to be in equilibrium
+    const bool relaxes =
+        observes(last, "self_scattering") || observes(last, "collective_scattering");
+    const bool halves = observes(last, "pressure") || observes(last, "energy");
+    const bool order = observes(last, "bond_order") || !is_round(&plan->system);
+    if (relaxes && halves && order) return;
+    printf("          %-16s not told of %s:", "equilibrium", last->name);
+    if (!relaxes) printf(" how often it relaxes (self_scattering)%s", halves && order ? "" : ";");
+    if (!halves) printf(" whether its halves agree (pressure)%s", order ? "" : ";");
+    if (!order) printf(" whether it crystallises (bond_order)");
+    printf("\n");
+}
+
 static void print_seconds(double seconds) {
     if (seconds < 100)
         printf("%.2g s", seconds);
@@ -124,6 +155,7 @@ static Status print_plan(const Plan *plan) {
     print_system(&plan->system);
     print_species(&plan->system);
     for (size_t s = 0; s < plan->stage_count; s++) TRY(print_stage(plan, s));
+    print_equilibrium(plan);
     printf("ensemble  %lld replicas, seed %lld\n", (long long)plan->ensemble.replicas,
            (long long)plan->ensemble.seed);
     print_cost(plan);

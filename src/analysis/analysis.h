@@ -4,6 +4,7 @@
 // beside them, so that their errors are over replicas like all others.
 #pragma once
 
+#include "protocol/plan.h"
 #include "results/results.h"
 #include "state/system.h"
 
@@ -33,6 +34,10 @@
 //   zero_shear_viscosity and _window; viscosity, a series          of stress_wandering
 // With several species, diffusion is given for all particles and, with _NAME, for each species.
 Status analysis_derive(Results *results, const System *system);
+
+// Whether the stages at rest were in equilibrium: relaxation_share and structure_peak, scalars, and
+// a fact "equilibrium of STAGE" in words. After analysis_derive.
+Status analysis_judge(Results *results, const Plan *plan);
 
 // Of the quantities of many states over an axis of packing fractions (campaign/combine.h), for each
 // OBSERVABLE_relaxation_time:

@@ -240,15 +240,33 @@ static void put_counter(Text *page, const ResultCounter *counter) {
     text_put(page, "</td></tr>\n");
 }
 
+static const char EQUILIBRIUM[] = "equilibrium of ";
+
+static bool tells_equilibrium(const ResultFact *fact) {
+    return strncmp(fact->name, EQUILIBRIUM, strlen(EQUILIBRIUM)) == 0;
+}
+
+static void put_equilibrium(Text *page, const ResultFact *fact) {
+    text_put(page, "<p>Equilibrium of ");
+    html_words(page, fact->name + strlen(EQUILIBRIUM));
+    text_put(page, ": ");
+    html_words(page, fact->text);
+    text_put(page, ".</p>\n");
+}
+
 void page_health(Text *page, const Results *results) {
     if (results->health_count == 0) return;
     text_put(page, "<h2>Health</h2>\n<table>\n<tr><th>Counter</th><th class=\"n\">Value</th>"
                    "<th class=\"n\">Limit</th><th>Verdict</th><th class=\"a\">About</th></tr>\n");
     for (size_t i = 0; i < results->health_count; i++) put_counter(page, &results->health[i]);
     text_put(page, "</table>\n");
+    for (size_t i = 0; i < results->fact_count; i++) {
+        if (tells_equilibrium(&results->facts[i])) put_equilibrium(page, &results->facts[i]);
+    }
 }
 
 static bool is_elsewhere(const ResultFact *fact) { // above, or below the table
+    if (tells_equilibrium(fact)) return true;
     static const char *const NAMES[] = {"plan", "title", "system", "stages"};
     for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++) {
         if (strcmp(fact->name, NAMES[i]) == 0) return true;

@@ -134,11 +134,24 @@ static void table_of_points(Text *text, const Results *results, const ResultSeri
     table_ends(text, &table);
 }
 
+// What analysis_judge said.
+static void lines_of_equilibrium(Text *text, const Results *results) {
+    static const char EQUILIBRIUM[] = "equilibrium of ";
+    bool first = true;
+    for (size_t i = 0; i < results->fact_count; i++) {
+        const ResultFact *fact = &results->facts[i];
+        if (strncmp(fact->name, EQUILIBRIUM, strlen(EQUILIBRIUM)) != 0) continue;
+        text_add(text, "%s%s: %s\n", first ? "\n" : "", fact->name, fact->text);
+        first = false;
+    }
+}
+
 void show_table(Text *text, const Results *results, const Selection *selection) {
     table_of_scalars(text, results, selection);
     if (selection->all) {
         if (results->scalar_count && results->series_count) text_put(text, "\n");
         table_of_names(text, results);
+        lines_of_equilibrium(text, results);
         return;
     }
     for (size_t i = 0; i < results->series_count; i++) {

@@ -199,7 +199,8 @@ static Status fill(const Plan *plan, const char *directory, Results *results) {
     memory_free(text);
     TRY(status);
     TRY(results_put_fact(results, "analysed", directory));
-    return analysis_derive(results, &plan->system);
+    TRY(analysis_derive(results, &plan->system));
+    return analysis_judge(results, plan);
 }
 
 Status session_analyse(Results **out, const Plan *plan, const char *directory) {

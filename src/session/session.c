@@ -137,7 +137,10 @@ static Status write_report(Session *session, const Results *results) {
 
 static Status keep_results(Session *session, Results *results, double seconds) {
     TRY(provenance_put(results, session->plan, session->plan_text, seconds));
-    if (!plan_is_theory(session->plan)) TRY(analysis_derive(results, &session->plan->system));
+    if (!plan_is_theory(session->plan)) {
+        TRY(analysis_derive(results, &session->plan->system));
+        TRY(analysis_judge(results, session->plan));
+    }
     TRY(store_write_results(session->store, results));
     TRY(write_report(session, results));
     return store_log(session->store, "finished after %.1f s", seconds);

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is said of equilibrium, from results made by hand.
+#include "analysis/analysis.h"
+#include "config/config.h"
+#include "observe.h"
+
+#include "base/memory.h"
+
+enum { REPLICAS = 4, LAGS = 21, BLOCKS = 8 };
+
+static const char RUN[] = "system:\n"
+                          "  dimension: 2\n"
+                          "  particles: 100\n"
+                          "  packing_fraction: 0.5\n"
+                          "  species: {disc: {shape: disc, diameter: 1, fraction: 1}}\n"
+                          "dynamics: {method: newtonian}\n"
+                          "protocol: [{stage: quiescent, time: 50}]\n"
+                          "ensemble: {replicas: 4, seed: 1}\n";
+
+static Plan *plan_new(void) {
+    Plan *plan = NULL;
+    ck_assert_msg(config_read_text(&plan, "run.yaml", RUN, strlen(RUN), NULL) == OK, "%s",
+                  status_sentence());
+    return plan;
+}
+
+static void put_decay(Results *results, double tau) {
+    static const double waves[1] = {6};
+    double times[LAGS], values[LAGS];
+    for (int k = 0; k < LAGS; k++) {
+        times[k] = 0.1 * pow(10, 0.1 * k); // up to 10
+        values[k] = exp(-times[k] / tau);
+    }
+    const ResultSeries shape = {
+        .stage = "quiescent",
+        .observable = "self_scattering",
+        .axes = 2,
+        .axis = {{.name = "wave_number", .unit = "1/d", .count = 1, .values = waves},
+                 {.name = "time", .unit = "d sqrt(m/kT)", .count = LAGS, .values = times}}};
+    for (size_t r = 0; r < REPLICAS; r++)
+        ck_assert_int_eq(results_put_series(results, &shape, r, values), OK);
+}
+
+// Local order 0.8; that of all together as given, and `drift` higher in the second half.
+static void put_order(Results *results, double global, double drift) {
+    static const char *const kinds[2] = {"local", "global"};
+    double times[BLOCKS], values[2][BLOCKS];
+    for (int k = 0; k < BLOCKS; k++) times[k] = 10 * (k + 1);
+    const ResultSeries shape = {
+        .stage = "quiescent",
+        .observable = "bond_order",
+        .axes = 2,
+        .axis = {{.name = "kind", .unit = "", .count = 2, .labels = kinds},
+                 {.name = "time", .unit = "d sqrt(m/kT)", .count = BLOCKS, .values = times}}};
+    for (size_t r = 0; r < REPLICAS; r++) {
+        for (int k = 0; k < BLOCKS; k++) {
+            values[0][k] = 0.8;
+            values[1][k] = global + drift * (k >= BLOCKS / 2) + 1e-3 * (double)r * (k % 2 + k / 4);
+        }
+        ck_assert_int_eq(results_put_series(results, &shape, r, &values[0][0]), OK);
+    }
+}
+
+static void assert_says(double tau, double global, double drift, const char *words) {
+    Results *results = NULL;
+    Plan *plan = plan_new();
+    ck_assert_int_eq(results_create(&results, REPLICAS), OK);
+    put_decay(results, tau);
+    put_order(results, global, drift);
+    ck_assert_int_eq(analysis_derive(results, &plan->system), OK);
+    ck_assert_int_eq(analysis_judge(results, plan), OK);
+    const char *said = results_find_fact(results, "equilibrium of quiescent");
+    ck_assert_ptr_nonnull(said);
+    ck_assert_msg(strstr(said, words), "'%s' lacks '%s'", said, words);
+    results_free(results);
+    memory_free(plan);
+}
+
+START_TEST(relaxations_are_counted) {
+    // To 1/e of the first lag, 0.1: that much later.
+    assert_says(2, 0.1, 0, "it lasts 23.8 times its longest relaxation time, 2.1");
+    assert_says(9, 0.1, 0, "d sqrt(m/kT), not the ten it should;");
+    assert_says(100, 0.1, 0, "has not relaxed");
+}
+END_TEST
+
+START_TEST(halves_are_compared) {
+    assert_says(2, 0.1, 0, "its halves agree");
+    assert_says(2, 0.1, 0.1, "its halves differ: bond_order_global_drift");
+}
+END_TEST
+
+START_TEST(crystals_are_seen) {
+    assert_says(2, 0.1, 0, "no crystal");
+    assert_says(2, 0.8, 0, "it crystallises");
+}
+END_TEST
+
+START_TEST(without_measurements_nothing_is_said) {
+    Results *results = NULL;
+    Plan *plan = plan_new();
+    ck_assert_int_eq(results_create(&results, REPLICAS), OK);
+    ck_assert_int_eq(analysis_judge(results, plan), OK);
+    ck_assert_ptr_null(results_find_fact(results, "equilibrium of quiescent"));
+    results_free(results);
+    memory_free(plan);
+}
+END_TEST
+
+int main(void) {
+    Suite *suite = suite_create("equilibrium");
+    TCase *c = tcase_create("equilibrium");
+    tcase_add_test(c, relaxations_are_counted);
+    tcase_add_test(c, halves_are_compared);
+    tcase_add_test(c, crystals_are_seen);
+    tcase_add_test(c, without_measurements_nothing_is_said);
+    suite_add_tcase(suite, c);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed > 0;
+}
