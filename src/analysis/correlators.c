@@ -51,6 +51,7 @@ static void jackknife(const Results *results, const Element *first, const Elemen
 typedef struct Function {
     const char *name, *about;
     const ResultSeries *first, *second;
+    size_t times; // not 0: the second stands at the first of so many times, which are the last axis
     double (*constant_of)(const ResultSeries *series, size_t element, const System *system);
     OfMeans of;
 } Function;
@@ -60,7 +61,7 @@ static void fill(const Results *results, const Function *function, const System 
     const ResultSeries *shape = function->first;
     for (size_t e = 0; e < shape->size; e++) {
         const Element first = {shape, e};
-        const Element second = {function->second, e};
+        const Element second = {function->second, function->times ? e - e % function->times : e};
         jackknife(results, &first, &second, function->of, function->constant_of(shape, e, system),
                   values + e, shape->size);
     }
@@ -104,6 +105,20 @@ Status derive_normalised_scattering(Results *results, const ResultSeries *ends) 
                  "F_ab(q,t)/S_ab(q), both of the same configurations.",
         .first = scattering,
         .second = ends,
+        .constant_of = no_constant,
+        .of = ratio};
+    return put(results, &function, NULL);
+}
+
+// Over the structure factor of the time origins: where the flow takes q, there is another.
+Status derive_normalised_advected(Results *results, const ResultSeries *scattering) {
+    const Function function = {
+        .name = "advected_scattering_normalised",
+        .about = "Collective intermediate scattering functions along directions under shear, over "
+                 "the structure factor at the time origin, F_ab(q,t)/S_ab(q).",
+        .first = scattering,
+        .second = scattering,
+        .times = scattering->axis[scattering->axes - 1].count,
         .constant_of = no_constant,
         .of = ratio};
     return put(results, &function, NULL);

@@ -13,6 +13,7 @@ static inline double pseudo_value(size_t replicas, double all, double without) {
 
 Status derive_diffusion(Results *results, const ResultSeries *displacement);
 Status derive_directional_diffusion(Results *results, const ResultSeries *displacement);
+Status derive_diffusion_across_flow(Results *results, const ResultSeries *displacement);
 Status derive_relaxation(Results *results, const ResultSeries *correlation);
 // These two add a series, so that the one given is no longer valid afterwards.
 Status derive_free_displacement(Results *results, const ResultSeries *displacement,
@@ -28,6 +29,9 @@ Status derive_factorisation(Results *results, const ResultSeries *scattering);
 Status derive_scaled(Results *results, const ResultSeries *scattering);
 Status derive_kohlrausch(Results *results, const ResultSeries *scattering);
 Status derive_normalised_scattering(Results *results, const ResultSeries *ends);
+Status derive_normalised_advected(Results *results, const ResultSeries *scattering);
+Status derive_exponent(Results *results, const ResultSeries *displacement);
+Status derive_transient(Results *results, const ResultSeries *waited);
 Status derive_non_gaussian(Results *results, const ResultSeries *quartic, const System *system);
 Status derive_start_up(Results *results, const ResultSeries *stress);
 Status derive_harmonics(Results *results, const ResultSeries *moduli);

@@ -10,7 +10,7 @@
 //
 // The displacements of bodies with an axis, along and across the body axis and the director at the
 // time origin, have each its own: in the isotropic phase all tend to one, in the nematic those of
-// the director are the diffusion tensor.
+// the director are the diffusion tensor. Under shear there is a coefficient across the flow: D_y.
 #include "analysis/derive.h"
 #include "analysis/curve.h"
 #include "base/memory.h"
@@ -112,17 +112,38 @@ Status derive_diffusion(Results *results, const ResultSeries *series) {
     return status;
 }
 
-Status derive_directional_diffusion(Results *results, const ResultSeries *series) {
+// Of those directions that it is asked for.
+static Status derive_directions(Results *results, const ResultSeries *series,
+                                bool (*wanted)(const char *direction)) {
     const size_t species = series->axis[0].count, directions = series->axis[1].count;
     if (series->axis[2].count < CURVE_LAGS_LEAST) return OK;
     double *weights = NULL;
     TRY(curve_weights(&weights, &series->axis[2]));
     Status status = OK;
     for (size_t row = 0; status == OK && row < species * directions; row++) {
+        if (!wanted(series->axis[1].labels[row % directions])) continue;
         Displacement of = {.curve = curve_in(results, series, row, weights), .dimensions = 1};
         name_curve(&of, series, row / directions, series->axis[1].labels[row % directions]);
         status = derive_from(results, &of, false);
     }
     memory_free(weights);
     return status;
+}
+
+static bool any(const char *direction) {
+    (void)direction;
+    return true;
+}
+
+Status derive_directional_diffusion(Results *results, const ResultSeries *series) {
+    return derive_directions(results, series, any);
+}
+
+// Along the flow displacements grow with t^3.
+static bool across_flow(const char *direction) {
+    return strcmp(direction, "y") == 0 || strcmp(direction, "z") == 0;
+}
+
+Status derive_diffusion_across_flow(Results *results, const ResultSeries *series) {
+    return derive_directions(results, series, across_flow);
 }

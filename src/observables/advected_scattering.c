@@ -375,6 +375,7 @@ static Status write(const Observer *observer, const State *state, Results *resul
         status =
             observer_put_series(observer, "advected_scattering", &shape, results, replica, values);
     }
+    if (status == OK) status = observer_put_shear_rate(observer, results, replica);
     memory_free(values);
     memory_free(times);
     return status;

@@ -17,3 +17,12 @@ Status observer_put_scalar(const Observer *observer, const char *quantity, const
     return results_put_scalar(results, observer->clock.stage, quantity, unit, about, replica,
                               value);
 }
+
+Status observer_put_shear_rate(const Observer *observer, Results *results, size_t replica) {
+    const Drive *drive = observer->clock.drive;
+    if (!drive || drive->flow.rate == 0) return OK;
+    return observer_put_scalar(
+        observer, "shear_rate", "D0/d^2",
+        "Steady rate of the flow v_x = shear_rate y: the bare Peclet number.", results, replica,
+        drive->flow.rate);
+}

@@ -10,3 +10,6 @@ Status observer_put_series(const Observer *observer, const char *name, const Res
 
 Status observer_put_scalar(const Observer *observer, const char *quantity, const char *unit,
                            const char *about, Results *results, size_t replica, double value);
+
+// The steady shear rate of the stage, where there is one: what correlators under shear scale with.
+Status observer_put_shear_rate(const Observer *observer, Results *results, size_t replica);

@@ -202,6 +202,7 @@ static Status write(const Observer *observer, const State *state, Results *resul
     Status status = NEW_ARRAY(values, species.count * species_size(self));
     if (status == OK) status = NEW_ARRAY(times, lags_axis_values(&self->motion.moves.history.lags));
     if (status == OK) status = put(self, &species, values, times, results, replica);
+    if (status == OK) status = observer_put_shear_rate(observer, results, replica);
     memory_free(values);
     memory_free(times);
     return status;

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Analysis of correlators under shear on functions whose answer is known: the relation between
+// transient and waiting functions, compressed exponentials, effective exponents, diffusion across
+// the flow.
+#include "analysis/analysis.h"
+#include "observe.h"
+
+enum { REPLICAS = 4, LAGS = 101, WAITS = 3 };
+static const double RATE = 0.1;
+static const double STRAINS[WAITS] = {0, 0.01, 0.5}; // of the last the s is 0.03 instead
+static const double BEST_STRAIN[WAITS] = {0, 0.01, 0.03};
+
+static double at_rest(double t) {
+    return exp(-pow(t / 50, 0.6));
+}
+
+// Transient over quiescent function, and its derivative.
+static double ratio(double t) {
+    return exp(-pow(RATE * t / 0.1, 1.5));
+}
+static double ratio_slope(double t) {
+    return -1.5 * RATE / 0.1 * sqrt(RATE * t / 0.1) * ratio(t);
+}
+
+// The same of displacements: their difference.
+static double displacement_at_rest(double t) {
+    return 2 * t / (1 + t);
+}
+static double difference(double t) {
+    return 0.5 * t * t / (1 + t);
+}
+static double difference_slope(double t) {
+    return 0.5 * (t * t + 2 * t) / ((1 + t) * (1 + t));
+}
+
+static double waited(double t, double strain, bool displacements) {
+    const double s = strain / RATE;
+    return displacements ? displacement_at_rest(t) + difference(t) + s * difference_slope(t)
+                         : at_rest(t) * (ratio(t) + s * ratio_slope(t));
+}
+
+// A stage at rest and a sheared one with waiting strains, every replica alike but for a factor.
+static Results *relaxed(const char *observable, bool displacements) {
+    static const char *const directions[] = {"y"}, *const species[] = {"small"};
+    double times[LAGS], values[WAITS][LAGS];
+    for (int k = 0; k < LAGS; k++) times[k] = 1e-3 * pow(10, 0.05 * k);
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, REPLICAS), OK);
+    ResultSeries shape = {
+        .stage = "rest",
+        .axes = 3,
+        .axis = {{.name = "species", .unit = "", .count = 1, .labels = species},
+                 {.name = "direction", .unit = "", .count = 1, .labels = directions},
+                 {.name = "time", .unit = "d^2/D0", .count = LAGS, .values = times}}};
+    strcpy(shape.observable, observable);
+    ResultSeries sheared = shape;
+    strcpy(sheared.stage, "shear");
+    sheared.axes = 4;
+    sheared.axis[3] = shape.axis[2];
+    sheared.axis[2] =
+        (ResultAxis){.name = "waiting_strain", .unit = "", .count = WAITS, .values = STRAINS};
+    for (size_t r = 0; r < REPLICAS; r++) {
+        const double factor = 1 + 0.01 * ((double)r - 1.5);
+        for (int k = 0; k < LAGS; k++)
+            values[0][k] =
+                factor * (displacements ? displacement_at_rest(times[k]) : at_rest(times[k]));
+        ck_assert_int_eq(results_put_series(results, &shape, r, values[0]), OK);
+        for (int w = 0; w < WAITS; w++) {
+            for (int k = 0; k < LAGS; k++)
+                values[w][k] = factor * waited(times[k], BEST_STRAIN[w], displacements);
+        }
+        ck_assert_int_eq(results_put_series(results, &sheared, r, &values[0][0]), OK);
+        results_put_scalar(results, "shear", "shear_rate", "", "", r, RATE);
+    }
+    const System system = system_of(2, 100, 0.5, 1);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    return results;
+}
+
+static double element(const Results *results, const char *name, size_t at) {
+    return results_series_estimate(results, series_of(results, "shear", name), at).value;
+}
+
+START_TEST(the_transient_follows_from_what_has_waited) {
+    Results *results = relaxed("self_scattering", false);
+    ck_assert_double_eq(element(results, "self_scattering_relation_strain", 0), 0);
+    for (size_t w = 1; w < WAITS; w++) {
+        ck_assert_double_eq_tol(element(results, "self_scattering_relation_strain", w),
+                                BEST_STRAIN[w], 0.02 * BEST_STRAIN[w]);
+    }
+    double off = 0;
+    for (size_t k = 0; k < LAGS; k++) {
+        const double expected = element(results, "self_scattering", k);
+        const size_t one = LAGS + k, last = 2 * LAGS + k;
+        ck_assert_double_eq_tol(element(results, "self_scattering_relation", k), expected, 1e-12);
+        ck_assert_double_eq_tol(element(results, "self_scattering_relation", one), expected, 2e-3);
+        ck_assert_double_eq_tol(element(results, "self_scattering_relation_fitted", last), expected,
+                                2e-3);
+        off = fmax(off, fabs(element(results, "self_scattering_relation", last) - expected));
+    }
+    ck_assert_double_gt(off, 0.1); // the waiting time itself does not serve where it is long
+    results_free(results);
+}
+END_TEST
+
+START_TEST(so_do_displacements) {
+    Results *results = relaxed("non_affine_displacement", true);
+    for (size_t w = 1; w < WAITS; w++) {
+        ck_assert_double_eq_tol(element(results, "non_affine_displacement_relation_strain", w),
+                                BEST_STRAIN[w], 0.02 * BEST_STRAIN[w]);
+    }
+    for (size_t k = 0; k < LAGS; k++) {
+        const double expected = element(results, "non_affine_displacement", k);
+        ck_assert_double_eq_tol(
+            element(results, "non_affine_displacement_relation", LAGS + k) / expected, 1, 3e-3);
+    }
+    results_free(results);
+}
+END_TEST
+
+static Results *single(const char *observable, double (*function)(double)) {
+    static const char *const species[] = {"small"}, *const directions[] = {"x", "y", "xy"};
+    double times[LAGS], values[3 * LAGS];
+    for (int k = 0; k < LAGS; k++) times[k] = 1e-3 * pow(10, 0.05 * k);
+    ResultSeries shape = {
+        .stage = "shear",
+        .axes = 3,
+        .axis = {{.name = "species", .unit = "", .count = 1, .labels = species},
+                 {.name = "direction", .unit = "", .count = 3, .labels = directions},
+                 {.name = "time", .unit = "d^2/D0", .count = LAGS, .values = times}}};
+    strcpy(shape.observable, observable);
+    for (int k = 0; k < 3 * LAGS; k++) values[k] = function(times[k % LAGS]);
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 2), OK);
+    for (size_t r = 0; r < 2; r++) results_put_series(results, &shape, r, values);
+    const System system = system_of(2, 100, 0.5, 1);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    return results;
+}
+
+static double power(double t) {
+    return 3 * pow(t, 1.7);
+}
+
+START_TEST(a_power_law_has_its_exponent) {
+    Results *results = single("non_affine_displacement", power);
+    for (size_t k = 1; k + 1 < LAGS; k++) {
+        ck_assert_double_eq_tol(element(results, "non_affine_displacement_exponent", k), 1.7, 1e-9);
+    }
+    ck_assert(isnan(element(results, "non_affine_displacement_exponent", 0)));
+    results_free(results);
+}
+END_TEST
+
+static double caged(double t) {
+    return 0.05 * (1 - exp(-t / 0.1)) + 2 * 0.03 * t;
+}
+
+START_TEST(diffusion_across_the_flow_is_a_slope) {
+    Results *results = single("non_affine_displacement", caged);
+    ck_assert_double_eq_tol(scalar_of(results, "shear", "long_time_diffusion_y"), 0.03, 1e-4);
+    ck_assert_ptr_null(results_find_scalar(results, "shear", "long_time_diffusion_x"));
+    ck_assert_ptr_null(results_find_scalar(results, "shear", "long_time_diffusion_xy"));
+    results_free(results);
+}
+END_TEST
+
+// As strain melts a glass: faster than exponentially.
+static double compressed(double t) {
+    return 0.2 * exp(-t / 0.01) + 0.8 * exp(-pow(t / 20, 1.5));
+}
+
+START_TEST(a_compressed_exponential_is_found) {
+    Results *results = single("self_scattering", compressed);
+    ck_assert_double_eq_tol(element(results, "self_scattering_kohlrausch_exponent", 0), 1.5, 2e-3);
+    ck_assert_double_eq_tol(element(results, "self_scattering_kohlrausch_time", 0), 20, 0.02);
+    results_free(results);
+}
+END_TEST
+
+int main(void) {
+    Suite *suite = suite_create("transient");
+    TCase *tests = tcase_create("transient");
+    tcase_set_timeout(tests, 60);
+    tcase_add_test(tests, the_transient_follows_from_what_has_waited);
+    tcase_add_test(tests, so_do_displacements);
+    tcase_add_test(tests, a_power_law_has_its_exponent);
+    tcase_add_test(tests, diffusion_across_the_flow_is_a_slope);
+    tcase_add_test(tests, a_compressed_exponential_is_found);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed != 0;
+}
