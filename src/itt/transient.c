@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "itt/kernel.h"
 #include "itt/relaxation.h"
-#include "itt/spread.h"
+#include "itt/walk.h"
 
 #include <math.h>
 #include <string.h>
@@ -22,7 +22,7 @@ struct Transient {
     size_t block, now; // index of the present time in the block
     size_t evaluations;
     Relaxation collective, tagged;
-    Spread spread;
+    Walk walk;
 };
 
 const char *const transient_direction[TRANSIENT_DIRECTIONS] = {"x", "y", "xy", "-xy"};
@@ -31,7 +31,7 @@ static Status allocate(Transient *t) {
     TRY(relaxation_create(&t->collective, t->plane, t->block));
     if (!t->settings.tagged) return OK;
     TRY(relaxation_create(&t->tagged, t->plane, t->block));
-    return spread_create(&t->spread, t->block);
+    return walk_create(&t->walk, t->block);
 }
 
 // The kernels at time i, whose correlators are known.
@@ -44,7 +44,7 @@ static void collective_kernel(Transient *t, size_t i) {
 static void tagged_kernel(Transient *t, size_t i) {
     const double *phi = relaxation_phi(&t->tagged, i);
     kernel_tagged(t->kernel, phi, relaxation_memory(&t->tagged, i));
-    kernel_displacement(t->kernel, relaxation_phi(&t->collective, i), phi, t->spread.friction[i]);
+    kernel_displacement(t->kernel, relaxation_phi(&t->collective, i), phi, t->walk.friction[i]);
 }
 
 // To second order in t: 1 - t rate + t^2 rate^2 (1 + m)/2, the rate at rest and its mean since.
@@ -77,7 +77,7 @@ static Status begin(Transient *t) {
         expand(t, &t->tagged, i, tagged_rest, kernel_tagged_rate(t->kernel));
         tagged_kernel(t, i);
         if (i > 0) relaxation_average(&t->tagged, i);
-        spread_begin(&t->spread, i, t->step, t->settings.shear_rate * t->step);
+        walk_begin(&t->walk, i, t->step, t->settings.shear_rate * t->step);
     }
     memory_free(rest);
     memory_free(tagged_rest);
@@ -114,8 +114,8 @@ static Status advance_tagged(Transient *t, double shear) {
     if (!(change < CONVERGED)) return fail_slow(t, change);
     relaxation_average(&t->tagged, t->now);
     kernel_displacement(t->kernel, relaxation_phi(&t->collective, t->now),
-                        relaxation_phi(&t->tagged, t->now), t->spread.friction[t->now]);
-    spread_advance(&t->spread, t->now, t->step, shear);
+                        relaxation_phi(&t->tagged, t->now), t->walk.friction[t->now]);
+    walk_advance(&t->walk, t->now, t->step, shear);
     return OK;
 }
 
@@ -123,7 +123,7 @@ static void next_block(Transient *t) {
     relaxation_decimate(&t->collective);
     if (t->settings.tagged) {
         relaxation_decimate(&t->tagged);
-        spread_decimate(&t->spread);
+        walk_decimate(&t->walk);
     }
     t->step *= 2;
     t->now = t->block / 2;
@@ -162,7 +162,7 @@ void transient_free(Transient *t) {
     if (!t) return;
     relaxation_free(&t->collective);
     relaxation_free(&t->tagged);
-    spread_free(&t->spread);
+    walk_free(&t->walk);
     kernel_free(t->kernel);
     memory_free(t);
 }
@@ -191,7 +191,7 @@ const double *transient_tagged(const Transient *t) {
 }
 
 double transient_displacement(const Transient *t, int direction) {
-    return t->settings.tagged ? t->spread.value[direction][t->now] : NAN;
+    return t->settings.tagged ? t->walk.value[direction][t->now] : NAN;
 }
 
 size_t transient_evaluations(const Transient *t) {

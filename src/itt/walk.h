@@ -10,24 +10,22 @@
 
 #include <stddef.h>
 
-enum { SPREAD_DIRECTIONS = 4 }; // along x, y, xy and -xy
+enum { WALK_DIRECTIONS = 4 }; // along x, y, xy and -xy
 
 typedef double Friction[2][2]; // K_ij
 
-typedef struct Spread {
+typedef struct Walk {
     size_t block;
-    double *value[SPREAD_DIRECTIONS], *mean[SPREAD_DIRECTIONS]; // [block + 1]
-    Friction *friction, *friction_mean;                         // [block + 1], by lag
+    double *value[WALK_DIRECTIONS], *mean[WALK_DIRECTIONS]; // [block + 1]
+    Friction *friction, *friction_mean;                     // [block + 1], by lag
     Friction *friction_moment; // [block + 1]: mean of K times the lag from the middle, in steps
-} Spread;
+} Walk;
 
-extern const char *const spread_names[SPREAD_DIRECTIONS];
-
-Status spread_create(Spread *spread, size_t block);
-void spread_free(Spread *spread);
+Status walk_create(Walk *walk, size_t block);
+void walk_free(Walk *walk);
 
 // Time i of the beginning, by its Taylor expansion; the friction at i is there.
-void spread_begin(Spread *spread, size_t i, double step, double shear);
+void walk_begin(Walk *walk, size_t i, double step, double shear);
 // Time i from what is known before and the friction at i; `shear` is the strain of an interval.
-void spread_advance(Spread *spread, size_t i, double step, double shear);
-void spread_decimate(Spread *spread);
+void walk_advance(Walk *walk, size_t i, double step, double shear);
+void walk_decimate(Walk *walk);

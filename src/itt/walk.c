@@ -2,23 +2,23 @@
 // Mean squared displacements on the doubling grid of times, discretised as in relaxation.c; but
 // where they grow with a power of time the friction has long been shorter than a step, and its
 // first moment in the newest interval is needed for second order.
-#include "itt/spread.h"
+#include "itt/walk.h"
 
 #include "base/memory.h"
 
 #include <math.h>
 #include <string.h>
 
-const char *const spread_names[SPREAD_DIRECTIONS] = {"x", "y", "xy", "-xy"};
-static const double DIRECTION[SPREAD_DIRECTIONS][2] = {
+// Along x, y, xy and -xy.
+static const double DIRECTION[WALK_DIRECTIONS][2] = {
     {1, 0},
     {0, 1},
     {0.70710678118654752440, 0.70710678118654752440},
     {-0.70710678118654752440, 0.70710678118654752440}};
 
-Status spread_create(Spread *s, size_t block) {
-    *s = (Spread){.block = block};
-    for (int d = 0; d < SPREAD_DIRECTIONS; d++) {
+Status walk_create(Walk *s, size_t block) {
+    *s = (Walk){.block = block};
+    for (int d = 0; d < WALK_DIRECTIONS; d++) {
         TRY(NEW_ARRAY(s->value[d], block + 1));
         TRY(NEW_ARRAY(s->mean[d], block + 1));
     }
@@ -27,15 +27,15 @@ Status spread_create(Spread *s, size_t block) {
     return NEW_ARRAY(s->friction_moment, block + 1);
 }
 
-void spread_free(Spread *s) {
-    for (int d = 0; d < SPREAD_DIRECTIONS; d++) {
+void walk_free(Walk *s) {
+    for (int d = 0; d < WALK_DIRECTIONS; d++) {
         memory_free(s->value[d]);
         memory_free(s->mean[d]);
     }
     memory_free(s->friction);
     memory_free(s->friction_mean);
     memory_free(s->friction_moment);
-    *s = (Spread){0};
+    *s = (Walk){0};
 }
 
 static void advect(const double e[2], double strain, double out[2]) {
@@ -58,8 +58,8 @@ static double kernel(const double e[2], Friction friction, double earlier, doubl
     return sum / square(from);
 }
 
-static void average(Spread *s, size_t i) {
-    for (int d = 0; d < SPREAD_DIRECTIONS; d++)
+static void average(Walk *s, size_t i) {
+    for (int d = 0; d < WALK_DIRECTIONS; d++)
         s->mean[d][i] = (s->value[d][i - 1] + s->value[d][i]) / 2;
     for (int a = 0; a < 4; a++) {
         const double before = s->friction[i - 1][a / 2][a % 2], now = s->friction[i][a / 2][a % 2];
@@ -68,10 +68,10 @@ static void average(Spread *s, size_t i) {
     }
 }
 
-void spread_begin(Spread *s, size_t i, double step, double shear) {
+void walk_begin(Walk *s, size_t i, double step, double shear) {
     if (i == 0) return;
     const double time = (double)i * step;
-    for (int d = 0; d < SPREAD_DIRECTIONS; d++) {
+    for (int d = 0; d < WALK_DIRECTIONS; d++) {
         double middle[2];
         advect(DIRECTION[d], shear * (double)i / 2, middle);
         s->value[d][i] =
@@ -81,7 +81,7 @@ void spread_begin(Spread *s, size_t i, double step, double shear) {
 }
 
 // All of the integral that does not need the value at time i.
-static double known_integral(const Spread *s, int d, size_t i, double shear) {
+static double known_integral(const Walk *s, int d, size_t i, double shear) {
     const size_t half = i / 2;
     const double *e = DIRECTION[d], *value = s->value[d], *mean = s->mean[d];
     const double now = shear * (double)i;
@@ -96,9 +96,9 @@ static double known_integral(const Spread *s, int d, size_t i, double shear) {
            (value[i - 1] - value[i - 2]) * kernel(e, s->friction_moment[1], now - 1.5 * shear, now);
 }
 
-void spread_advance(Spread *s, size_t i, double step, double shear) {
+void walk_advance(Walk *s, size_t i, double step, double shear) {
     const double now = shear * (double)i;
-    for (int d = 0; d < SPREAD_DIRECTIONS; d++) {
+    for (int d = 0; d < WALK_DIRECTIONS; d++) {
         const double *e = DIRECTION[d], *value = s->value[d];
         const double newest = kernel(e, s->friction_mean[1], now - shear / 2, now) -
                               kernel(e, s->friction_moment[1], now - shear / 2, now);
@@ -128,8 +128,8 @@ static void halve_moment(double *moment, const double *mean, size_t width, size_
     }
 }
 
-void spread_decimate(Spread *s) {
-    for (int d = 0; d < SPREAD_DIRECTIONS; d++) halve(s->value[d], s->mean[d], 1, s->block);
+void walk_decimate(Walk *s) {
+    for (int d = 0; d < WALK_DIRECTIONS; d++) halve(s->value[d], s->mean[d], 1, s->block);
     halve_moment(&s->friction_moment[0][0][0], &s->friction_mean[0][0][0], 4, s->block);
     halve(&s->friction[0][0][0], &s->friction_mean[0][0][0], 4, s->block);
 }
