@@ -76,25 +76,53 @@ static void put_looks(Text *script, const Figure *figure) {
     }
 }
 
+// Many names would lie on the curves: they go below, in columns as wide as the longest.
+typedef struct Legend {
+    bool below;
+    size_t columns, height; // in pixels
+} Legend;
+
+static Legend legend_of(const Figure *figure) {
+    enum { KEY_MOST = 6, WIDTH = 700, LETTER = 9, SAMPLE = 70, ROW = 20 };
+    size_t longest = 1;
+    for (size_t c = 0; c < figure->curve_count; c++) {
+        const size_t letters = strlen(figure->curve[c].title);
+        if (letters > longest) longest = letters;
+    }
+    const size_t fit = WIDTH / (longest * LETTER + SAMPLE), columns = fit > 1 ? fit : 1;
+    const size_t rows = (figure->curve_count + columns) / columns; // and one for what lies beside
+    const bool below = figure->curve_count > KEY_MOST && !has_ratio(figure);
+    return (Legend){below, columns, below ? rows * ROW : 0};
+}
+
+static void put_key(Text *script, const Figure *figure) {
+    const Legend legend = legend_of(figure);
+    const char *key = figure->kind && figure->kind->key ? figure->kind->key : "above";
+    if (legend.below)
+        text_add(script, "set key below maxcols %zu font ',14' noenhanced samplen 2 spacing 1.2\n",
+                 legend.columns);
+    else
+        text_add(script, "set key %s noenhanced samplen 2 spacing 1.2\n", key);
+}
+
 static void put_head(Text *script, const Figure *figure) {
+    static const size_t HEIGHT = 480, RATIO_HEIGHT = 720; // of two panels
     text_add(
         script,
         "# Draws %s.svg from %s.csv: gnuplot %s.gp\n"
         "set encoding utf8\n"
-        "set terminal svg size 760,%d enhanced font 'Helvetica,Arial,sans-serif,18' name '%s'\n"
+        "set terminal svg size 760,%zu enhanced font 'Helvetica,Arial,sans-serif,18' name '%s'\n"
         "set output '%s.svg'\n"
         "set datafile separator ','\n"
         "data = '%s.csv'\n"
         "set border linewidth 1.2\n"
         "set tics scale 0.8\n"
         "set style fill transparent solid 0.25 noborder\n",
-        figure->name, figure->name, figure->name, has_ratio(figure) ? 720 : 480, figure->name,
+        figure->name, figure->name, figure->name,
+        has_ratio(figure) ? RATIO_HEIGHT : HEIGHT + legend_of(figure).height, figure->name,
         figure->name, figure->name);
     put_looks(script, figure);
-    static const size_t KEY_MOST = 6; // curves; the names of more would lie on them
-    const char *key = figure->kind && figure->kind->key ? figure->kind->key : "above";
-    if (figure->curve_count > KEY_MOST) key = "outside right top";
-    text_add(script, "set key %s noenhanced samplen 2 spacing 1.2\n", key);
+    put_key(script, figure);
 }
 
 // Without a row of its own, an axis is logarithmic if its points spread out along it.
