@@ -48,7 +48,7 @@ static Status print_method(const Plan *plan, const Stage *stage) {
     const Dynamics *dynamics = &stage->dynamics;
     if (!dynamics->kind->describe) return OK;
     Text lines = {0};
-    dynamics->kind->describe(&dynamics->settings, &plan->system, stage->time, &lines);
+    dynamics->kind->describe(&dynamics->settings, &plan->system, stage_time(stage), &lines);
     for (const char *line = text_words(&lines); *line; line += strcspn(line, "\n") + 1) {
         printf("          %-16s %.*s\n", "", (int)strcspn(line, "\n"), line);
     }
@@ -62,8 +62,11 @@ static Status print_stage(const Plan *plan, size_t index) {
     const Clock clock = plan_clock(plan, index);
     const double steps = (double)(clock.ticks / clock.ticks_per_step);
     printf("stage     %-16s %s, %.6g %s in %.0f steps of %.6g\n", stage->name,
-           stage->dynamics.kind->name, stage->time, clock.unit, steps,
+           stage->dynamics.kind->name, stage_time(stage), clock.unit, steps,
            clock.tick * (double)clock.ticks_per_step);
+    if (drive_kinds(&stage->drive) & DRIVE_FLOW)
+        printf("          %-16s %s\n", "  driven by",
+               flow_words((char[FLOW_WORDS_SIZE]){0}, &stage->drive.flow));
     TRY(print_method(plan, stage));
     if (stage->observation_count == 0) printf("          %-16s nothing\n", "  observes");
     for (size_t k = 0; k < stage->observation_count; k++) {

@@ -118,18 +118,23 @@ Lags lags_chosen(const LagSettings *settings, const Clock *clock) {
     return lags;
 }
 
-static Status check_waits(const char *observable, const OptionReals *waits, const Clock *clock) {
-    const double time = clock->tick * (double)clock->ticks;
+// In what they are given in: times, or strains of a steady flow.
+static Status check_waits(const char *observable, const LagSettings *settings, const Clock *clock) {
+    const bool strains = settings->waiting_strain.count > 0;
+    const OptionReals *waits = strains ? &settings->waiting_strain : &settings->waiting_times;
+    const char *word = strains ? "strain" : "time";
+    const double end = clock->tick * (double)clock->ticks * (strains ? steady_rate(clock) : 1);
     for (int64_t w = 0; w < waits->count; w++) {
         if (w > 0 && !(waits->values[w] > waits->values[w - 1])) {
-            return status_fail(BAD_DATA, "%s: waiting times must ascend, but %g follows %g",
-                               observable, waits->values[w], waits->values[w - 1]);
+            return status_fail(BAD_DATA, "%s: waiting %ss must ascend, but %g follows %g",
+                               observable, word, waits->values[w], waits->values[w - 1]);
         }
-        if (!(waits->values[w] < time)) {
+        if (!(waits->values[w] < end)) {
             return status_fail(BAD_DATA,
-                               "%s: a waiting time of %g is not within the stage '%s' of %g %s; "
-                               "make the stage longer or the time shorter",
-                               observable, waits->values[w], clock->stage, time, clock->unit);
+                               "%s: a waiting %s of %g is not within the stage '%s' of %g%s%s; "
+                               "make the stage longer or the %s shorter",
+                               observable, word, waits->values[w], clock->stage, end,
+                               strains ? "" : " ", strains ? "" : clock->unit, word);
         }
     }
     return OK;
@@ -154,8 +159,7 @@ Status lags_check(const char *observable, const LagSettings *settings, const Clo
     const double time = clock->tick * (double)clock->ticks;
     const double last = settings->last > 0 ? settings->last : time / 3;
     TRY(check_strains(observable, settings, clock));
-    const OptionReals waits = waits_chosen(settings, clock);
-    TRY(check_waits(observable, &waits, clock));
+    TRY(check_waits(observable, settings, clock));
     if (last > time * (1 + 1e-9)) {
         return status_fail(BAD_DATA,
                            "%s: times.last = %g is longer than the stage '%s' of %g %s; make the "

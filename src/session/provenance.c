@@ -68,7 +68,7 @@ static Status put_stages(Results *results, const Plan *plan) {
     for (size_t s = 0; s < plan->stage_count; s++) {
         const Stage *stage = &plan->stages[s];
         text_add(&words, "%s%s: %s, %.6g %s", s ? "; " : "", stage->name,
-                 stage->dynamics.kind->name, stage->time, stage->dynamics.kind->time_unit);
+                 stage->dynamics.kind->name, stage_time(stage), stage->dynamics.kind->time_unit);
     }
     const Status status = results_put_fact(results, "stages", text_words(&words));
     text_free(&words);
