@@ -68,6 +68,9 @@ static Status print_stage(const Plan *plan, size_t index) {
         printf("          %-16s %s\n", "  driven by",
                flow_words((char[FLOW_WORDS_SIZE]){0}, &stage->drive.flow));
     TRY(print_method(plan, stage));
+    char flow[FLOW_WORDS_SIZE];
+    if (drive_kinds(&stage->drive) & DRIVE_FLOW)
+        printf("          %-16s %s\n", "  flows", flow_words(flow, &stage->drive.flow));
     if (stage->observation_count == 0) printf("          %-16s nothing\n", "  observes");
     for (size_t k = 0; k < stage->observation_count; k++) {
         printf("          %-16s %s\n", k == 0 ? "  observes" : "",

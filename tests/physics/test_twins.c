@@ -23,6 +23,7 @@ typedef struct Case {
     bool redraw, all_pairs;
     int steps;
     uint64_t collisions_least;
+    Flow flow;
 } Case;
 
 // Equal numbers of diameters 1 and 1.4, masses 1 and 2.
@@ -50,6 +51,7 @@ static void copy(State *to, const State *from) {
         memcpy(to->velocity[a], from->velocity[a], from->count * sizeof(double));
         memcpy(to->image[a], from->image[a], from->count * sizeof(int32_t));
     }
+    to->box = from->box;
     to->step = from->step;
 }
 
@@ -70,6 +72,7 @@ static void check_same_places(const State *one, const State *other) {
         }
     }
     ck_assert_int_eq(one->step, other->step);
+    ck_assert_double_eq_tol(box_strain(&one->box), box_strain(&other->box), SAME);
 }
 
 static void check_same_collisions(const CollisionLog *fast, const ReferenceLog *slow,
@@ -116,12 +119,15 @@ static void check_twins(const Case *test, uint64_t seed) {
     ck_assert_int_eq(state_create(&twin, &system), OK);
     copy(twin, state);
     ck_assert_int_eq(engine_create(&engine, &settings, state, key), OK);
+    const EngineFlow flow = {.flow = &test->flow, .step_time = 1}; // its unit is a step, then
+    if (flow_fastest(&test->flow) > 0) ck_assert_int_eq(engine_shear(engine, &flow), OK);
     ck_assert_int_eq(
         reference_create(&reference, twin, key, interval, test->redraw, test->all_pairs), OK);
     for (int step = 0; step < test->steps; step++) {
         CollisionLog fast_log = {.records = fast_records, .capacity = LOG_SIZE};
         ReferenceLog slow_log = {.records = slow_records, .capacity = LOG_SIZE};
         copy(twin, state);
+        reference_shear(reference, flow_rate(&test->flow, step, step + 1) / interval);
         engine_record(engine, &fast_log);
         reference_record(reference, &slow_log);
         ck_assert_int_eq(engine_advance(engine, test->windows_per_step, &fast), OK);
@@ -162,6 +168,21 @@ START_TEST(newtonian_particles_collide_as_their_twins) {
 }
 END_TEST
 
+// Strains per step of a hundredth of those between which images pass each other.
+START_TEST(sheared_particles_collide_as_their_twins) {
+    Case discs = {2, 64, 0.7, 0.01, 1, true, true, 2000, 10000, .flow.rate = 0.004};
+    Case back = {2, 36, 0.6, 0.01, 10, true, true, 300, 2000, .flow.rate = -0.03};
+    Case wave = {2, 64, 0.7, 0.01, 2, true, true, 1000, 5000};
+    Case spheres = {3, 64, 0.45, 0.01, 1, true, true, 250, 500, .flow.rate = 0.02};
+    wave.flow.oscillation.amplitude = 1.5;
+    wave.flow.oscillation.frequency = 0.005;
+    check_twins(&discs, 31);
+    check_twins(&back, 32);
+    check_twins(&wave, 33);
+    check_twins(&spheres, 34);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("twins");
     TCase *all = tcase_create("all");
@@ -169,6 +190,7 @@ int main(void) {
     tcase_add_test(all, brownian_discs_collide_as_their_twins);
     tcase_add_test(all, brownian_spheres_collide_as_their_twins);
     tcase_add_test(all, newtonian_particles_collide_as_their_twins);
+    tcase_add_test(all, sheared_particles_collide_as_their_twins);
     suite_add_tcase(suite, all);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);

@@ -36,6 +36,7 @@ struct Reference {
     State *state;
     RngKey key;
     double interval;
+    double rate; // of the shear
     bool thermostatted, all_pairs;
     int dimension, count;
     Particle *particles;
@@ -97,6 +98,12 @@ static double position_at(const Particle *particle, int axis, double time) {
     return particle->position[axis] + particle->velocity[axis] * (time - particle->clock);
 }
 
+// How far the images one box above have moved along x at a time of the interval.
+static double image_offset(const Reference *reference, double time) {
+    const Box *box = &reference->state->box;
+    return box->offset + reference->rate * box->edge[1] * time;
+}
+
 // r = r_i - r_j at the clock of i, j displaced by whole boxes.
 static void separation(const Reference *reference, int i, int j, const int boxes[3], double r[3]) {
     const Particle *one = &reference->particles[i], *other = &reference->particles[j];
@@ -104,6 +111,26 @@ static void separation(const Reference *reference, int i, int j, const int boxes
         r[a] = one->position[a] - position_at(other, a, one->clock) -
                (double)boxes[a] * reference->state->box.edge[a];
     }
+    r[0] -= boxes[1] * image_offset(reference, one->clock);
+}
+
+// v_i - v_j, j displaced by whole boxes.
+static void relative_velocity(const Reference *reference, int i, int j, const int boxes[3],
+                              double v[3]) {
+    const Particle *one = &reference->particles[i], *other = &reference->particles[j];
+    for (int a = 0; a < reference->dimension; a++) v[a] = one->velocity[a] - other->velocity[a];
+    v[0] -= boxes[1] * reference->rate * reference->state->box.edge[1];
+}
+
+// In which box j is nearest to i, at the clock of i.
+static void nearest_boxes(const Reference *reference, int i, int j, int boxes[3]) {
+    const double *edge = reference->state->box.edge;
+    double r[3];
+    boxes[0] = boxes[1] = boxes[2] = 0;
+    separation(reference, i, j, boxes, r);
+    for (int a = 1; a < reference->dimension; a++) boxes[a] = (int)rint(r[a] / edge[a]);
+    separation(reference, i, j, boxes, r);
+    boxes[0] = (int)rint(r[0] / edge[0]);
 }
 
 // When discs or spheres at separation r meet, INFINITY if never: |r + v t| = s (Weysser, thesis,
@@ -127,7 +154,7 @@ static void consider_meeting(Reference *reference, int i, int j, const int boxes
     const Particle *other = &reference->particles[j];
     double r[3], v[3];
     separation(reference, i, j, boxes, r);
-    for (int a = 0; a < reference->dimension; a++) v[a] = one->velocity[a] - other->velocity[a];
+    relative_velocity(reference, i, j, boxes, v);
     const double contact = one->radius + other->radius;
     const double time = one->clock + time_to_meeting(reference->dimension, r, v, contact);
     if (time >= one->time) return;
@@ -171,15 +198,11 @@ static void consider_cell(Reference *reference, int i, const int offset[3], int 
 
 // The nearest image and those around it.
 static void consider_everyone(Reference *reference, int i, const int offset[3], int after) {
-    const int none[3] = {0, 0, 0};
     for (int j = after + 1; j < reference->count; j++) {
         if (j == i) continue;
-        double r[3];
-        int boxes[3] = {0, 0, 0};
-        separation(reference, i, j, none, r);
-        for (int a = 0; a < reference->dimension; a++) {
-            boxes[a] = (int)rint(r[a] / reference->state->box.edge[a]) + offset[a];
-        }
+        int boxes[3];
+        nearest_boxes(reference, i, j, boxes);
+        for (int a = 0; a < reference->dimension; a++) boxes[a] += offset[a];
         consider_meeting(reference, i, j, boxes);
     }
 }
@@ -269,12 +292,14 @@ static void note(Reference *reference, int i, int j, double time) {
     log->count++;
 }
 
-// r_i - r_j of partners that touch: the nearest image. How deep they overlap is kept.
-static void contact_vector(Reference *reference, int i, int j, double r[3]) {
-    const int none[3] = {0, 0, 0};
+// r_i - r_j and v_i - v_j of partners that touch: of the nearest image. How deep they overlap is
+// kept.
+static void contact_vector(Reference *reference, int i, int j, double r[3], double v[3]) {
     const Particle *one = &reference->particles[i], *other = &reference->particles[j];
-    separation(reference, i, j, none, r);
-    box_nearest_image(&reference->state->box, r);
+    int boxes[3];
+    nearest_boxes(reference, i, j, boxes);
+    separation(reference, i, j, boxes, r);
+    relative_velocity(reference, i, j, boxes, v);
     double r2 = 0;
     for (int a = 0; a < reference->dimension; a++) r2 += r[a] * r[a];
     const double depth = 1 - sqrt(r2) / (one->radius + other->radius);
@@ -286,10 +311,10 @@ static void contact_vector(Reference *reference, int i, int j, double r[3]) {
 static void collide(Reference *reference, int i, int j, double time) {
     Particle *one = &reference->particles[i], *other = &reference->particles[j];
     move_to(reference, other, time);
-    double r[3] = {0, 0, 0}, b = 0, r2 = 0;
-    contact_vector(reference, i, j, r);
+    double r[3] = {0, 0, 0}, v[3], b = 0, r2 = 0;
+    contact_vector(reference, i, j, r, v);
     for (int a = 0; a < reference->dimension; a++) {
-        b += r[a] * (one->velocity[a] - other->velocity[a]);
+        b += r[a] * v[a];
         r2 += r[a] * r[a];
     }
     const double momentum = -2 * one->mass * other->mass / (one->mass + other->mass) * b / r2;
@@ -341,6 +366,7 @@ static void draw_velocities(Reference *reference) {
         for (int a = 0; a < reference->dimension; a++) {
             state->velocity[a][i] = reference->normals[a][i] * thermal_speed;
         }
+        state->velocity[0][i] += reference->rate * state->position[1][i];
     }
 }
 
@@ -360,18 +386,32 @@ static void take_from_state(Reference *reference) {
     }
 }
 
-static void give_to_state(const Reference *reference) {
+// Back into [0, edge) along an axis; how many boxes it went.
+static int32_t fold(const Reference *reference, Particle *particle, int axis) {
+    const double edge = reference->state->box.edge[axis];
+    double boxes = floor(particle->position[axis] / edge);
+    double x = particle->position[axis] - boxes * edge;
+    if (x >= edge) x = 0, boxes++;
+    particle->position[axis] = x;
+    return (int32_t)boxes;
+}
+
+// Whoever leaves upwards comes back from below where its image is, with the velocity of that.
+static void give_to_state(Reference *reference) {
     State *state = reference->state;
+    box_shear(&state->box, reference->rate * state->box.edge[1] * reference->interval);
+    state->shear_rate = reference->rate;
     for (int i = 0; i < reference->count; i++) {
-        const Particle *particle = &reference->particles[i];
+        Particle *particle = &reference->particles[i];
+        const int32_t up = fold(reference, particle, 1);
+        particle->position[0] -= up * state->box.offset;
+        particle->velocity[0] -= up * reference->rate * state->box.edge[1];
+        state->image[1][i] += up;
+        state->image[0][i] += fold(reference, particle, 0) - (int32_t)(up * state->box.turns);
+        if (reference->dimension == 3) state->image[2][i] += fold(reference, particle, 2);
         for (int a = 0; a < reference->dimension; a++) {
-            const double edge = state->box.edge[a];
-            double boxes = floor(particle->position[a] / edge);
-            double x = particle->position[a] - boxes * edge;
-            if (x >= edge) x = 0, boxes++;
-            state->position[a][i] = x;
+            state->position[a][i] = particle->position[a];
             state->velocity[a][i] = particle->velocity[a];
-            state->image[a][i] += (int32_t)boxes;
         }
     }
 }
@@ -399,6 +439,10 @@ void reference_advance(Reference *reference, int64_t intervals, Tally *tally) {
     reference->tally = (Tally){0};
     for (int64_t k = 0; k < intervals; k++) advance_one(reference);
     tally_add(tally, &reference->tally);
+}
+
+void reference_shear(Reference *reference, double rate) {
+    reference->rate = rate;
 }
 
 void reference_record(Reference *reference, ReferenceLog *log) {

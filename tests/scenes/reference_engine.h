@@ -33,6 +33,10 @@ Status reference_create(Reference **out, State *state, RngKey key, double interv
                         bool thermostatted, bool all_pairs);
 void reference_free(Reference *reference);
 
+// From the next interval on the flow v_x = rate y, in sqrt(kT/m)/d, between moving images (Lees and
+// Edwards). In a box that was ever sheared `all_pairs` is needed.
+void reference_shear(Reference *reference, double rate);
+
 // Each interval begins from what stands in the state and ends with it, one step later.
 void reference_advance(Reference *reference, int64_t intervals, Tally *tally);
 
