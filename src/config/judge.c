@@ -226,6 +226,7 @@ static Status judge_method(const Node *root, const Node *node, const Plan *plan,
         return tree_fail(node, "stage '%s' needs a time%s", stage->name,
                          stage->drive.flow.rate != 0 ? ", or a strain at which it ends" : "");
     TRY(placed(root, node, stage_check_drive(plan, (size_t)(stage - plan->stages))));
+    TRY(placed(root, node, stage_check_until(plan, (size_t)(stage - plan->stages))));
     const double tick = kind->tick(&stage->dynamics.settings, &plan->system);
     const double time = stage_time(stage);
     const Node *end = place(node, stage->time > 0 ? "time" : "strain", NULL);

@@ -117,7 +117,7 @@ enum { STRETCHES = 16 };
 static double relative_error(const Observer *observer) {
     const Stress *self = (const Stress *)observer;
     const size_t length = self->done / STRETCHES;
-    if (length == 0) return INFINITY;
+    if (length == 0 || self->done % STRETCHES != 0) return INFINITY;
     double sum = 0, squares = 0;
     for (size_t k = 0; k < STRETCHES; k++) {
         const double mean = mean_of(self, 0, k * length, (k + 1) * length);
@@ -141,8 +141,12 @@ static Status put_scalars(const Stress *self, const State *state, Results *resul
         TRY(observer_put_scalar(observer, stress_names[s], stress_unit(dimension), stress_abouts[s],
                                 results, replica, mean_of(self, s, 0, self->done)));
     }
-    const double rate = steady_rate(&observer->clock);
+    const Clock *clock = &observer->clock;
+    const double rate = steady_rate(clock);
     if (rate == 0) return OK;
+    TRY(observer_put_scalar(observer, "stress_strain", "",
+                            "Strain over which the stress was averaged.", results, replica,
+                            (double)self->done * (double)self->period * clock->tick * fabs(rate)));
     return observer_put_scalar(observer, "shear_viscosity", dimension == 2 ? "kT/D0" : "kT/(d D0)",
                                "sigma_xy/shear_rate, of the collisions; the solvent's own is not "
                                "in it.",

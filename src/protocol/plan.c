@@ -15,6 +15,11 @@ static const Option stage_rows[] = {
      "with newtonian dynamics, cycles with monte-carlo. Give this or strain."},
     {"strain", OPTION_REAL, offsetof(Stage, strain), 0, 0, 1e9, "",
      "The strain at which a stage with a steady shear_rate ends, in place of a time."},
+    {"until.stress_error", OPTION_REAL, offsetof(Stage, stress_error), 0, 0, 1, "",
+     "Standard error of the shear stress over its mean at which the stage ends: it observes "
+     "stress, "
+     "and its time or strain is the limit. Each replica ends by itself, at an error larger by the "
+     "root of the number of replicas; it looks every sixteenth window of stress. 0: no such end."},
 };
 const OptionTable stage_options = {stage_rows, sizeof stage_rows / sizeof *stage_rows,
                                    sizeof(Stage)};
@@ -41,6 +46,12 @@ const OptionTable output_options = {output_rows, sizeof output_rows / sizeof *ou
 
 bool plan_is_theory(const Plan *plan) {
     return plan->theory.species_count > 0;
+}
+
+bool stage_is_recorded(const Plan *plan, size_t stage) {
+    const char *recorded = plan->output.trajectory_stage;
+    if (!(plan->output.trajectory_every > 0)) return false;
+    return recorded[0] == '\0' || strcmp(recorded, plan->stages[stage].name) == 0;
 }
 
 double stage_time(const Stage *stage) {
@@ -137,6 +148,32 @@ Status stage_check_drive(const Plan *plan, size_t stage) {
     return kind->check_drive(&at->dynamics.settings, &plan->system, &at->drive);
 }
 
+Status stage_check_until(const Plan *plan, size_t stage) {
+    const Stage *at = &plan->stages[stage];
+    if (at->stress_error == 0) return OK;
+    bool told = false;
+    for (size_t k = 0; k < at->observation_count; k++) {
+        told |= at->observations[k].kind->relative_error != NULL;
+    }
+    if (!told)
+        return status_fail(
+            BAD_DATA,
+            "until = {stress_error: %g}: the stage '%s' does not observe stress; add "
+            "it",
+            at->stress_error, at->name);
+    if (at->drive.flow.rate == 0)
+        return status_fail(
+            BAD_DATA,
+            "until = {stress_error: %g}: the stage '%s' has no steady shear_rate, and "
+            "so no steady stress to wait for",
+            at->stress_error, at->name);
+    if (!stage_is_recorded(plan, stage)) return OK;
+    return status_fail(BAD_DATA,
+                       "until = {stress_error: %g}: how many configurations the stage '%s' stores "
+                       "would not be known; set output: {trajectory: {stage: ...}} to another",
+                       at->stress_error, at->name);
+}
+
 static Status check_stage(const Plan *plan, size_t stage) {
     const Stage *at = &plan->stages[stage];
     const PropagatorKind *kind = at->dynamics.kind;
@@ -146,6 +183,7 @@ static Status check_stage(const Plan *plan, size_t stage) {
         return status_fail(BAD_DATA, "two stages are called '%s'", at->name);
     }
     TRY(stage_check_drive(plan, stage));
+    TRY(stage_check_until(plan, stage));
     const double tick = kind->tick(&at->dynamics.settings, &plan->system), time = stage_time(at);
     if (!(time > 0 && time / tick < TICKS_MOST)) {
         return status_fail(BAD_DATA, "stage '%s': time = %g %s cannot be run in ticks of %g",

@@ -19,6 +19,7 @@ typedef struct Stage {
     char name[OPTION_TEXT_SIZE];
     double time;   // in the method's time_unit; 0: as long as the strain takes
     double strain; // at which it ends, if that is given in place of a time
+    double stress_error; // relative, at which it ends before; 0: not
     Drive drive;
     Dynamics dynamics;
     size_t observation_count;
@@ -55,6 +56,9 @@ bool plan_is_theory(const Plan *plan);
 
 // BAD_DATA with a sentence if a stage cannot be driven like this, or has no end.
 Status stage_check_drive(const Plan *plan, size_t stage);
+// Likewise, if it cannot end by what is measured.
+Status stage_check_until(const Plan *plan, size_t stage);
+bool stage_is_recorded(const Plan *plan, size_t stage); // in the trajectory
 double stage_time(const Stage *stage); // how long it lasts, in the method's time_unit
 
 // The time axis of a stage: its time rounded to a whole number of steps, at least one.

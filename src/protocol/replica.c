@@ -65,12 +65,6 @@ static Status show_observers(Replica *replica, int64_t before) {
     return OK;
 }
 
-static bool stage_is_recorded(const Plan *plan, size_t stage) {
-    const char *recorded = plan->output.trajectory_stage;
-    if (!(plan->output.trajectory_every > 0)) return false;
-    return recorded[0] == '\0' || strcmp(recorded, plan->stages[stage].name) == 0;
-}
-
 // The first stage recorded also gives the configuration at its start.
 static bool records_its_start(const Plan *plan, size_t stage) {
     if (!stage_is_recorded(plan, stage)) return false;
@@ -228,6 +222,20 @@ static int64_t next_stop(const Replica *replica) {
     return stop;
 }
 
+// The stress is known well enough: this replica's share of what all are to know together.
+static bool knows_enough(const Replica *replica, int64_t before) {
+    const Stage *stage = &replica->plan->stages[replica->stage];
+    if (stage->stress_error == 0) return false;
+    const double share = stage->stress_error * sqrt((double)replica->plan->ensemble.replicas);
+    for (size_t k = 0; k < stage->observation_count; k++) {
+        const Observer *observer = replica->observers[replica->stage][k];
+        if (!observer->kind->relative_error) continue;
+        if (observer->kind->next(observer, before) != replica->tick) continue; // nothing new
+        if (observer->kind->relative_error(observer) <= share) return true;
+    }
+    return false;
+}
+
 static Status advance(Replica *replica) {
     if (!replica->propagator) return begin_stage(replica);
     const int64_t before = replica->tick, after = next_stop(replica);
@@ -235,7 +243,8 @@ static Status advance(Replica *replica) {
     TRY(replica->propagator->kind->advance(replica->propagator, after - before, &replica->tally));
     replica->tick = after;
     TRY(show_observers(replica, before));
-    const bool frame = frames && after % frames == 0, ends = after == replica->clock.ticks;
+    const bool frame = frames && after % frames == 0;
+    const bool ends = after == replica->clock.ticks || knows_enough(replica, before);
     const bool due = after % (HEALTH_STEPS * replica->clock.ticks_per_step) == 0;
     if (frame) replica->frames_due++;
     if (frame || ends || due) TRY(check_health(replica));
