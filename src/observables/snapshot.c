@@ -190,7 +190,8 @@ static Status put_nothing(const Snapshot *snapshot, const State *state, Results 
 static Status write(const Observer *observer, const State *state, Results *results,
                     size_t replica) {
     const Snapshot *snapshot = (const Snapshot *)observer;
-    if ((int64_t)replica == snapshot->settings.replica)
+    const bool seen = snapshot->rows[COLUMN_DIAMETER] > 0; // not where the stage ended early
+    if (seen && (int64_t)replica == snapshot->settings.replica)
         return put(snapshot, state, &state->box, results, replica);
     return put_nothing(snapshot, state, results, replica);
 }
