@@ -15,13 +15,18 @@ static const Option stage_rows[] = {
      "with newtonian dynamics, cycles with monte-carlo. Give this or strain."},
     {"strain", OPTION_REAL, offsetof(Stage, strain), 0, 0, 1e9, "",
      "The strain at which a stage with a steady shear_rate ends, in place of a time."},
+};
+const OptionTable stage_options = {stage_rows, sizeof stage_rows / sizeof *stage_rows,
+                                   sizeof(Stage)};
+
+static const Option until_rows[] = {
     {"until.stress_error", OPTION_REAL, offsetof(Stage, stress_error), 0, 0, 1, "",
      "Standard error of the shear stress over its mean at which the stage ends: it observes "
      "stress, "
      "and its time or strain is the limit. Each replica ends by itself, at an error larger by the "
      "root of the number of replicas; it looks every sixteenth window of stress. 0: no such end."},
 };
-const OptionTable stage_options = {stage_rows, sizeof stage_rows / sizeof *stage_rows,
+const OptionTable until_options = {until_rows, sizeof until_rows / sizeof *until_rows,
                                    sizeof(Stage)};
 
 static const Option ensemble_rows[] = {

@@ -8,7 +8,7 @@
 #include "state/system.h"
 #include "theory/theory.h"
 
-enum { STAGES_MOST = 16, OBSERVATIONS_MOST = 16, TITLE_SIZE = OPTION_TEXT_SIZE };
+enum { STAGES_MOST = 16, OBSERVATIONS_MOST = 32, TITLE_SIZE = OPTION_TEXT_SIZE };
 
 typedef struct Observation {
     const ObservableKind *kind;
@@ -17,8 +17,8 @@ typedef struct Observation {
 
 typedef struct Stage {
     char name[OPTION_TEXT_SIZE];
-    double time;   // in the method's time_unit; 0: as long as the strain takes
-    double strain; // at which it ends, if that is given in place of a time
+    double time;         // in the method's time_unit; 0: as long as the strain takes
+    double strain;       // at which it ends, if that is given in place of a time
     double stress_error; // relative, at which it ends before; 0: not
     Drive drive;
     Dynamics dynamics;
@@ -49,6 +49,7 @@ typedef struct Plan {
 } Plan;
 
 extern const OptionTable stage_options; // of one entry of `protocol:`, beside drive_options
+extern const OptionTable until_options; // of a Stage: how it may end before
 extern const OptionTable ensemble_options;
 extern const OptionTable output_options;
 
