@@ -201,7 +201,7 @@ static Status read_stage(const Node *root, const Node *node, const Dynamics *dyn
     static const char *const others[] = {"dynamics", "observe", NULL};
     char name[OPTION_TEXT_SIZE + sizeof "stage ''"] = "a stage";
     TRY(options_default(&stage_options, stage));
-    TRY(options_default(&until_options, stage));
+    TRY(options_default(&stage_until_options, stage));
     TRY(options_default(&drive_options, &stage->drive));
     const Node *label = tree_find(node, "stage");
     if (label) {
@@ -210,7 +210,7 @@ static Status read_stage(const Node *root, const Node *node, const Dynamics *dyn
         snprintf(name, sizeof name, "stage '%s'", stage->name);
     }
     const OptionTarget targets[] = {
-        {&stage_options, stage}, {&until_options, stage}, {&drive_options, &stage->drive}};
+        {&stage_options, stage}, {&stage_until_options, stage}, {&drive_options, &stage->drive}};
     const OptionMap options = {name, targets, COUNT(targets), others};
     TRY(options_read(&options, node, true));
     stage->dynamics = *dynamics;

@@ -49,7 +49,7 @@ static const Section before_methods[] = {
 static const Section before_observables[] = {
     {"protocol", NULL, "The stages, in order: a list of maps.", &stage_options},
     {"protocol", NULL, "When a stage ends before its time or strain, which is then the limit.",
-     &until_options},
+     &stage_until_options},
     {"protocol", NULL, "What drives a stage out of equilibrium: keys of the stage itself.",
      &drive_options},
     {"protocol.dynamics", NULL,

@@ -94,7 +94,7 @@ static void write_stage(const Stage *stage, Text *text) {
             text_add(text, " # in %s", stage->dynamics.kind->time_unit);
         text_add(text, "\n");
     }
-    write_table(&until_options, NULL, stage, 2 * STEP, text);
+    write_table(&stage_until_options, NULL, stage, 2 * STEP, text);
     write_table(&drive_options, NULL, &stage->drive, 2 * STEP, text);
     write_dynamics(&stage->dynamics, 2 * STEP, text);
     text_add(text, "    observe:%s\n", stage->observation_count ? "" : " []");

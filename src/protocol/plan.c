@@ -26,8 +26,8 @@ static const Option until_rows[] = {
      "and its time or strain is the limit. Each replica ends by itself, at an error larger by the "
      "root of the number of replicas; it looks every sixteenth window of stress. 0: no such end."},
 };
-const OptionTable until_options = {until_rows, sizeof until_rows / sizeof *until_rows,
-                                   sizeof(Stage)};
+const OptionTable stage_until_options = {until_rows, sizeof until_rows / sizeof *until_rows,
+                                         sizeof(Stage)};
 
 static const Option ensemble_rows[] = {
     {"replicas", OPTION_INTEGER, offsetof(EnsemblePlan, replicas), 4, 1, 100000, "",

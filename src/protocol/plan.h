@@ -48,8 +48,8 @@ typedef struct Plan {
     TheoryPlan theory; // with species: a run of the theory, of which all but the title is empty
 } Plan;
 
-extern const OptionTable stage_options; // of one entry of `protocol:`, beside drive_options
-extern const OptionTable until_options; // of a Stage: how it may end before
+extern const OptionTable stage_options;       // of one entry of `protocol:`, beside drive_options
+extern const OptionTable stage_until_options; // of a Stage: how it may end before
 extern const OptionTable ensemble_options;
 extern const OptionTable output_options;
 
