@@ -2,7 +2,8 @@
 // Holds what a gallery entry measured against what is expected of it. An expectation is met if
 //   |value - expected| <= tolerance + 3 sqrt(error^2 + uncertainty^2):
 // `tolerance` is what finite size, finite interval or the reference formula may amount to, said in
-// the entry; the errors are statistical. A value whose error exceeds the `precision` that is asked
+// the entry; the errors are statistical. Where only a bound is known, "> 1" or "< 1", it is met if the
+// value is beyond it by as much, and coarse if that cannot be told. A value whose error exceeds the `precision` that is asked
 // for proves nothing, and is said to be coarse.
 #include "gallery.h"
 
@@ -156,6 +157,7 @@ static Status find_measured(const Judgement *judgement, const char *subject, con
 
 typedef struct Expectation {
     const char *subject, *measure;
+    int side; // 1 or -1: above or below what is expected; 0: there
     double expected, uncertainty, tolerance, precision;
 } Expectation;
 
@@ -165,6 +167,10 @@ static Status read_expected(const Judgement *judgement, size_t row, Expectation 
     const Csv *csv = judgement->expected;
     const char *expected = csv_cell(csv, row, "expected");
     Measured other = {.point = ""};
+    if (*expected == '>' || *expected == '<') {
+        out->side = *expected++ == '>' ? 1 : -1;
+        while (*expected == ' ') expected++;
+    }
     if (number_read(expected, &out->expected))
         return csv_number(csv, row, "uncertainty", 0, &out->uncertainty);
     TRY(find_measured(judgement, expected, out->measure, &other));
@@ -185,6 +191,10 @@ static Status read_expectation(const Judgement *judgement, size_t row, Expectati
 static const char *verdict_of(const Expectation *want, double value, double error) {
     const double far = fabs(value - want->expected);
     const double chance = STANDARD_ERRORS * hypot(error, want->uncertainty);
+    if (want->side != 0) {
+        const double beyond = want->side * (value - want->expected) + want->tolerance;
+        return beyond > chance ? "met" : beyond >= -chance ? "coarse" : "MISSED";
+    }
     if (!(far <= want->tolerance + chance)) return "MISSED";
     return error > want->precision ? "coarse" : "met";
 }

@@ -160,19 +160,24 @@ START_TEST(verdicts_are_as_the_readme_says) {
              "a,Z,2.5,0,0,0.009,exact,too coarse\n"
              "line@0,Z,0.5,0,0,0.03,exact,a straight line to zero\n"
              "a,Z,b,0,1.99,,independent,another point with an error as large\n"
-             "a,Z,b,0,1.95,,independent,beyond\n");
+             "a,Z,b,0,1.95,,independent,beyond\n"
+             "a,Z,> 2.4,0,0,,published,a bound\n"
+             "a,Z,>2.49,0,0,,published,near a bound\n"
+             "a,Z,< 2.6,0,0,,published,a bound\n"
+             "a,Z,< 2.4,0,0,,published,beyond a bound\n");
     FILE *out = fopen("/dev/null", "w");
     ck_assert_int_eq(gallery_judge(&run, out, &missed, &count), OK);
     fclose(out);
-    ck_assert_uint_eq(count, 8);
-    ck_assert_uint_eq(missed, 3);
+    ck_assert_uint_eq(count, 12);
+    ck_assert_uint_eq(missed, 5);
     static const char *const verdicts[] = {"met",    "MISSED", "met", "met",
-                                           "coarse", "met",    "met", "MISSED"};
+                                           "coarse", "met",    "met", "MISSED",
+                                           "met",    "coarse", "met", "MISSED"};
     Csv *csv = NULL;
     char path[GALLERY_PATH];
     ck_assert_int_eq(gallery_path(path, folder, "verdict.csv"), OK);
     ck_assert_int_eq(csv_read(&csv, path), OK);
-    for (size_t i = 0; i < 8; i++) ck_assert_str_eq(csv_cell(csv, i, "verdict"), verdicts[i]);
+    for (size_t i = 0; i < 12; i++) ck_assert_str_eq(csv_cell(csv, i, "verdict"), verdicts[i]);
     ck_assert_str_eq(csv_cell(csv, 0, "deviation"), "-2.9");
     // Errors of 0.01 at x = 1 and 2: sqrt(2^2 + 1) of them at 0.
     double value;
