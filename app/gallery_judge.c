@@ -2,9 +2,9 @@
 // Holds what a gallery entry measured against what is expected of it. An expectation is met if
 //   |value - expected| <= tolerance + 3 sqrt(error^2 + uncertainty^2):
 // `tolerance` is what finite size, finite interval or the reference formula may amount to, said in
-// the entry; the errors are statistical. Where only a bound is known, "> 1" or "< 1", it is met if the
-// value is beyond it by as much, and coarse if that cannot be told. A value whose error exceeds the `precision` that is asked
-// for proves nothing, and is said to be coarse.
+// the entry; the errors are statistical. Where only a bound is known, "> 1" or "< 1", it is met if
+// the value is beyond it by as much, and coarse if that cannot be told. A value whose error exceeds
+// the `precision` that is asked for proves nothing, and is said to be coarse.
 #include "gallery.h"
 
 #include "measure.h"

@@ -170,9 +170,8 @@ START_TEST(verdicts_are_as_the_readme_says) {
     fclose(out);
     ck_assert_uint_eq(count, 12);
     ck_assert_uint_eq(missed, 5);
-    static const char *const verdicts[] = {"met",    "MISSED", "met", "met",
-                                           "coarse", "met",    "met", "MISSED",
-                                           "met",    "coarse", "met", "MISSED"};
+    static const char *const verdicts[] = {"met", "MISSED", "met", "met",    "coarse", "met",
+                                           "met", "MISSED", "met", "coarse", "met",    "MISSED"};
     Csv *csv = NULL;
     char path[GALLERY_PATH];
     ck_assert_int_eq(gallery_path(path, folder, "verdict.csv"), OK);
