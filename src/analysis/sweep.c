@@ -5,7 +5,7 @@
 //   it the function has fallen to 1/e before its final decay begins;
 //   scaled functions: how far they are from one master curve;
 //   plateaus of the states that did not relax, f = f_c + A sqrt(phi/phi_c - 1), phi_c from the
-//   relaxation times.
+//   relaxation times at the smallest wave number, where they are longest.
 // (Weysser, thesis, ch. 3.) The laws are fitted to ln tau with equal weights: what is left is how
 // far they hold, not noise. The errors are the jackknife's: a replica of every state is left out in
 // turn, which is right for states that are independent of each other.
@@ -123,9 +123,12 @@ static double exponent_of(size_t index) {
 // Then phi_c from each state on with gamma free, [state], and given, [state][exponent].
 enum { EXPONENT, MISFIT, SCAN };
 
-// Of the means that stand beside: where none is known, nothing speaks against it.
+// Of the states that relax, by what stands beside: where none is known, nothing speaks against it.
 static bool plateau_is_high(const States *states) {
-    const double most = largest(states->beside, states->count);
+    double most = -INFINITY;
+    for (size_t i = 0; i < states->count; i++) {
+        if (states->mean[i] > 0) most = fmax(most, states->beside[i]);
+    }
     return isinf(most) || most > HIGH / exp(1);
 }
 
@@ -185,6 +188,7 @@ typedef struct Sweep {
     const Results *results;
     ResultSeries series;
     const ResultSeries *beside; // of the same shape, or NULL
+    size_t beside_waves;        // its elements in a row that count as the first of them; or 1
     size_t axis, inner, rows;   // of the packing fraction; elements from one of it to the next
     size_t numbers;             // that the law gives
     double *values;             // [replica][row][number]: pseudo-values
@@ -209,9 +213,10 @@ static void see_states(const Sweep *sweep, size_t row, int64_t without, States *
     for (size_t i = 0; i < states->count; i++) {
         const size_t element = first + i * sweep->inner;
         states->mean[i] = mean_without(sweep->results, &sweep->series, element, without);
-        states->beside[i] = sweep->beside
-                                ? mean_without(sweep->results, sweep->beside, element, without)
-                                : (double)NAN;
+        states->beside[i] = NAN;
+        if (!sweep->beside) continue;
+        states->beside[i] = mean_without(sweep->results, sweep->beside,
+                                         element - element % sweep->beside_waves, without);
     }
 }
 
@@ -300,7 +305,8 @@ static Status put_part(Results *results, const Sweep *sweep, const char *ending,
 
 // False without an axis of packing fractions.
 static bool make_sweep(Sweep *sweep, const Results *results, const ResultSeries *series) {
-    *sweep = (Sweep){.results = results, .series = *series, .axis = series->axes, .inner = 1};
+    *sweep = (Sweep){
+        .results = results, .series = *series, .axis = series->axes, .inner = 1, .beside_waves = 1};
     for (size_t a = 0; a < series->axes; a++) {
         const ResultAxis *axis = &series->axis[a];
         if (strcmp(axis->name, "packing_fraction") == 0 && axis->values) sweep->axis = a;
@@ -396,6 +402,8 @@ static Status derive_square_root_law(Results *results, Sweep *sweep) {
     };
     sweep->beside = beside(results, sweep, PLATEAU, RELAXATION_TIME);
     if (!sweep->beside) return OK;
+    const ResultAxis *last = &sweep->series.axis[sweep->series.axes - 1];
+    if (strcmp(last->name, "wave_number") == 0) sweep->beside_waves = last->count;
     sweep->numbers = PLATEAU_NUMBERS;
     return put_parts(results, sweep, square_root_law, PLATEAU, parts, PLATEAU_NUMBERS);
 }

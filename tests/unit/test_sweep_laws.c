@@ -134,31 +134,37 @@ START_TEST(times_before_the_plateau_are_left_alone) {
 }
 END_TEST
 
-// The lower four states relax, the others have plateaus above f_c.
+// The lower four states relax, the others have plateaus above f_c. At the second wave number the
+// plateau is low, and 1/e is passed before it.
 START_TEST(plateaus_of_a_glass_rise_as_a_square_root) {
-    static const double phi[STATES + 3] = {0.77, 0.775, 0.78, 0.785, 0.80, 0.81, 0.82};
-    enum { RELAX = 4, ALL = 7 };
+    enum { RELAX = 4, ALL = 7, WAVES = 2 };
+    static const double phi[ALL] = {0.77, 0.775, 0.78, 0.785, 0.80, 0.81, 0.82};
+    static const double waves[WAVES] = {6, 10}, critical[WAVES] = {0.59, 0.32},
+                        amplitude[WAVES] = {1.2, 1.786};
     Results *results = new_results();
-    const double waves[1] = {6};
     ResultSeries shape = {
         .stage = "quiescent",
         .axes = 2,
         .axis = {{.name = "packing_fraction", .unit = "", .count = ALL, .values = phi},
-                 {.name = "wave_number", .unit = "1/d", .count = 1, .values = waves}}};
+                 {.name = "wave_number", .unit = "1/d", .count = WAVES, .values = waves}}};
+    double tau[ALL][WAVES], f[ALL][WAVES];
+    for (int s = 0; s < ALL; s++) {
+        tau[s][0] = s < RELAX ? pow(CRITICAL - phi[s], -GAMMA) : (double)NAN;
+        tau[s][1] = 1;
+        for (int q = 0; q < WAVES; q++)
+            f[s][q] = s < RELAX ? 0.3 : critical[q] + amplitude[q] * sqrt(phi[s] / CRITICAL - 1);
+    }
     for (size_t r = 0; r < REPLICAS; r++) {
-        double tau[ALL], f[ALL];
-        for (int s = 0; s < ALL; s++) {
-            tau[s] = s < RELAX ? pow(CRITICAL - phi[s], -GAMMA) : (double)NAN;
-            f[s] = s < RELAX ? 0.5 : 0.59 + 1.2 * sqrt(phi[s] / CRITICAL - 1);
-        }
         strcpy(shape.observable, "self_scattering_relaxation_time");
-        ck_assert_int_eq(results_put_series(results, &shape, r, tau), OK);
+        ck_assert_int_eq(results_put_series(results, &shape, r, &tau[0][0]), OK);
         strcpy(shape.observable, "self_scattering_plateau");
-        ck_assert_int_eq(results_put_series(results, &shape, r, f), OK);
+        ck_assert_int_eq(results_put_series(results, &shape, r, &f[0][0]), OK);
     }
     ck_assert_int_eq(analysis_derive_sweep(results), OK);
-    ck_assert_double_eq_tol(found(results, "plateau_critical", 0).value, 0.59, 1e-5);
-    ck_assert_double_eq_tol(found(results, "plateau_amplitude", 0).value, 1.2, 1e-4);
+    for (size_t q = 0; q < WAVES; q++) {
+        ck_assert_double_eq_tol(found(results, "plateau_critical", q).value, critical[q], 1e-5);
+        ck_assert_double_eq_tol(found(results, "plateau_amplitude", q).value, amplitude[q], 1e-4);
+    }
     results_free(results);
 }
 END_TEST
