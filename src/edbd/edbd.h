@@ -30,12 +30,13 @@ double engine_scale(const Engine *engine);
 
 // The flow v_x = rate y, whose rate in each step is the mean over that step.
 typedef struct EngineFlow {
-    const Flow *flow; // borrowed; NULL: at rest
+    const Flow *flow; // borrowed
     double step_time; // of a step, in d^2/D0
     int64_t begun;    // the step of the state at which the flow's time began
 } EngineFlow;
 
-// From the next step on. In a box that leans the images are where it has them, flow or none.
+// From the next step on; once in the life of an engine. In a box that leans the images are where it
+// has them, flow or none.
 Status engine_shear(Engine *engine, const EngineFlow *flow);
 
 // BAD_DATA with a sentence if engines cannot do this system in windows of this length.

@@ -67,6 +67,9 @@ static void take_in(Engine *engine) {
         engine->thermal_of[i] = 1 / sqrt(state->mass[i]);
         engine->fastest = fmax(engine->fastest, engine->thermal_of[i]);
     }
+}
+
+static void choose_margin(Engine *engine) {
     const bool diffusive = engine->settings.redraw && engine->settings.windows_per_step == 1;
     engine->margin = (diffusive ? MARGIN_DIFFUSIVE : MARGIN_BALLISTIC) * engine->fastest *
                      engine->settings.window;
@@ -84,14 +87,19 @@ static void allow_for_rounding(Engine *engine) {
     engine->sketch_error = (float)(1e-6 * engine->largest * (longest + 2 * engine->largest));
 }
 
-// The mean over a step, from D0/d^2 to sqrt(kT/m)/d: the strain of the step is the same.
+// From D0/d^2 to sqrt(kT/m)/d: the strain of a step is the same.
+static double rate_of_flight(const Engine *engine, double rate) {
+    const double interval = engine->settings.window * (double)engine->settings.windows_per_step;
+    return rate * (engine->flow.step_time / interval);
+}
+
+// The mean over a step.
 static double shear_rate_in(const Engine *engine, int64_t step) {
     const EngineFlow *flow = &engine->flow;
     if (!flow->flow) return 0;
     const double from = (double)(step - flow->begun) * flow->step_time;
     const double to = (double)(step + 1 - flow->begun) * flow->step_time;
-    const double interval = engine->settings.window * (double)engine->settings.windows_per_step;
-    return flow_rate(flow->flow, from, to) * (flow->step_time / interval);
+    return rate_of_flight(engine, flow_rate(flow->flow, from, to));
 }
 
 static void set_shear_rate(Engine *engine, double rate) {
@@ -138,6 +146,7 @@ Status engine_create(Engine **out, const EngineSettings *settings, State *state,
     Status status = allocate(engine);
     if (status == OK) {
         take_in(engine);
+        choose_margin(engine);
         allow_for_rounding(engine);
         status = list_build(engine);
     }
@@ -172,8 +181,12 @@ void engine_free(Engine *engine) {
 
 Status engine_shear(Engine *engine, const EngineFlow *flow) {
     engine->flow = *flow;
-    engine->sheared = engine->sheared || flow->flow;
+    engine->sheared = 1;
+    // Partners bring along what the flow does across a diameter.
+    engine->fastest += rate_of_flight(engine, flow_fastest(flow->flow)) * engine->largest;
+    choose_margin(engine);
     allow_for_rounding(engine);
+    engine->list.skin = 0; // to be chosen again
     return list_build(engine);
 }
 

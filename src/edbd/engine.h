@@ -117,7 +117,7 @@ struct Engine {
     uint32_t *stamp;    // [count + 1] collisions of each in this window
     double *thermal_of; // [count] the same, by id
     double largest;     // diameter
-    double fastest;     // thermal velocity
+    double fastest;     // thermal velocity, and that of the flow across a diameter
     double margin;      // the list is rebuilt when this is left of its reach, in d
 
     NeighbourList list;
