@@ -9,7 +9,9 @@
 #include <string.h>
 
 enum { NAME_MOST = 2 * RESULT_NAME, KEYS_MOST = 256 };
-static const double NEAR = 1e-6; // relative distance at which a number names an axis value
+// Relative distance at which a number names the nearest value of an axis: wave numbers of shells
+// and times in whole steps are not quite those that were asked for.
+static const double NEAR = 0.02;
 
 typedef struct Name {
     char stage[NAME_MOST], quantity[NAME_MOST], keys[KEYS_MOST]; // keys: "all,total,0.06" or ""
@@ -31,14 +33,25 @@ static Status read_name(Name *name, const char *text, size_t length) {
     return status_fail(BAD_DATA, "'%s' is not STAGE/QUANTITY or STAGE/OBSERVABLE[KEYS]", whole);
 }
 
-static Status find_key(const ResultAxis *axis, const char *key, size_t *index) {
-    double wanted = 0;
-    const bool number = axis->values && number_read(key, &wanted);
-    for (size_t i = 0; i < axis->count; i++) {
+static bool find_label(const ResultAxis *axis, const char *key, size_t *index) {
+    for (size_t i = 0; axis->labels && i < axis->count; i++) {
         *index = i;
-        if (axis->labels && strcmp(axis->labels[i], key) == 0) return OK;
-        if (number && fabs(axis->values[i] - wanted) <= NEAR * fabs(wanted)) return OK;
+        if (strcmp(axis->labels[i], key) == 0) return true;
     }
+    return false;
+}
+
+static Status find_key(const ResultAxis *axis, const char *key, size_t *index) {
+    double wanted = 0, nearest = INFINITY;
+    if (find_label(axis, key, index)) return OK;
+    const bool number = axis->values && number_read(key, &wanted);
+    for (size_t i = 0; number && i < axis->count; i++) {
+        const double off = fabs(axis->values[i] - wanted);
+        if (!(off < nearest)) continue;
+        nearest = off;
+        *index = i;
+    }
+    if (nearest <= NEAR * fabs(wanted)) return OK;
     return status_fail(BAD_DATA, "there is no '%s' on the axis %s", key, axis->name);
 }
 

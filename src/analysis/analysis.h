@@ -24,7 +24,8 @@
 //   OBSERVABLE_relaxation_time and OBSERVABLE_kohlrausch_amplitude, _time, _exponent, _window and
 //   _scan, series                        of self_scattering and collective_scattering_normalised
 //   OBSERVABLE_plateau, _fall, _factorisation_X, _factorisation_Y, _factorisation_spread,
-//   _factorisation_window and _scaled, series                                  of the same two
+//   _factorisation_window, _scaled and, after a stage with another unit of time, _time_shift,
+//   series                                                                   of the same two
 //   non_gaussian_parameter, a series     of squared_displacement and quartic_displacement
 //   four_point_susceptibility, a series                           of overlap and overlap_square
 //   overshoot_strain, _stress, _height    of stress against strain, where there is an overshoot

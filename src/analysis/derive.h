@@ -26,6 +26,7 @@ Status derive_theory(Results *results, const char *stage, const System *system);
 Status derive_drift(Results *results, const ResultSeries *blocks);
 Status derive_structure_change(Results *results, const ResultSeries *structure);
 Status derive_factorisation(Results *results, const ResultSeries *scattering);
+Status derive_shift(Results *results, const ResultSeries *scattering);
 Status derive_scaled(Results *results, const ResultSeries *scattering);
 Status derive_kohlrausch(Results *results, const ResultSeries *scattering);
 Status derive_normalised_scattering(Results *results, const ResultSeries *ends);

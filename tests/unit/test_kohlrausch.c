@@ -111,6 +111,48 @@ START_TEST(what_has_not_relaxed_has_no_time) {
 }
 END_TEST
 
+// Two stages with the same decay, whose times differ by a factor and a unit.
+START_TEST(a_factor_of_time_is_found) {
+    static const double FACTOR = 0.0155;
+    static const double waves[1] = {6};
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, REPLICAS), OK);
+    Rng rng = rng_open((RngKey){.seed = 9}, STREAM_PACKING, 0, 0);
+    for (int stage = 0; stage < 2; stage++) {
+        double times[LAGS], values[LAGS];
+        const double factor = stage == 0 ? 1 : FACTOR;
+        for (int k = 0; k < LAGS; k++) times[k] = 1e-3 * pow(10, 0.1 * k) * (stage ? 0.01 : 1);
+        const ResultSeries shape = {
+            .stage = "",
+            .observable = "self_scattering",
+            .axes = 2,
+            .axis = {{.name = "wave_number", .unit = "1/d", .count = 1, .values = waves},
+                     {.name = "time",
+                      .unit = stage ? "d^2/D0" : "d sqrt(m/kT)",
+                      .count = LAGS,
+                      .values = times}}};
+        ResultSeries named = shape;
+        strcpy(named.stage, stage ? "brownian" : "newtonian");
+        for (size_t r = 0; r < REPLICAS; r++) {
+            const double scale = factor * (1 + 0.1 * rng_normal(&rng));
+            for (int k = 0; k < LAGS; k++) values[k] = glassy(times[k] / scale, 1);
+            ck_assert_int_eq(results_put_series(results, &named, r, values), OK);
+        }
+    }
+    const System system = system_of(2, 100, 0.5, 1);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    ck_assert_ptr_null(results_find_series(results, "newtonian", "self_scattering_time_shift"));
+    const ResultSeries *shift = series_of(results, "brownian", "self_scattering_time_shift");
+    for (size_t level = 0; level < 9; level++) {
+        const Estimate one = results_series_estimate(results, shift, level);
+        // Both times are uncertain by a tenth over sqrt(8).
+        ck_assert_double_eq_tol(one.value / FACTOR, 1, 4 * 0.05);
+        ck_assert_double_eq_tol(one.error / FACTOR, 0.05, 0.04);
+    }
+    results_free(results);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("kohlrausch");
     TCase *c = tcase_create("kohlrausch");
@@ -118,6 +160,7 @@ int main(void) {
     tcase_add_test(c, a_free_particle_decays_exponentially);
     tcase_add_test(c, errors_are_those_of_the_replicas);
     tcase_add_test(c, what_has_not_relaxed_has_no_time);
+    tcase_add_test(c, a_factor_of_time_is_found);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);
