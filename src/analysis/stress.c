@@ -81,6 +81,9 @@ static Status put_overshoot(Results *results, const ResultSeries *series, size_t
 static Status derive_overshoot(Results *results, const ResultSeries *series, StartUp *mean) {
     size_t begin = 0, end = 0;
     mean_without(series, results->replicas, ALL, mean);
+    while (mean->count > 0 && !isfinite(mean->stress[mean->count - 1]))
+        mean->count--; // ended early
+    if (mean->count < 4 * PEAK_LEAST) return OK;
     const double sign = mean->stress[mean->count - 1] < 0 ? -1 : 1;
     near_peak(mean, sign, &begin, &end);
     // Before it the stress must have been seen to rise, after it to fall.

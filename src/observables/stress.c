@@ -14,6 +14,7 @@
 
 typedef struct StressSettings {
     int64_t windows;
+    double average_from;
 } StressSettings;
 
 static const Option rows[] = {
@@ -26,12 +27,22 @@ static const Option rows[] = {
      .unit = "",
      .about = "Windows of strain, or of time, over each of which the stress is averaged: at most "
               "so many, at least half of it."},
+    {.name = "average_from",
+     .type = OPTION_REAL,
+     .offset = offsetof(StressSettings, average_from),
+     .least = 0,
+     .most = 1e12,
+     .unit = "",
+     .about =
+         "Strain (time, where the shear is not steady) from which on the stress is averaged over "
+         "the stage: after the start-up."},
 };
 
 typedef struct Stress {
     Observer observer;
     int64_t period; // ticks of a window
     size_t windows, done;
+    size_t first;        // window that is averaged over the stage
     double before[3][3]; // exchanged when the window began
     double *stresses;    // [windows][STRESSES_MOST]
 } Stress;
@@ -40,12 +51,35 @@ static int64_t period_for(const Settings *settings, const Clock *clock) {
     return looks_period(clock, ((const StressSettings *)settings->bytes)->windows);
 }
 
+static double steady_rate(const Clock *clock) {
+    return clock->drive ? clock->drive->flow.rate : 0;
+}
+
+// Of a tick, in strain where the shear is steady, or in time.
+static double advance_of(const Clock *clock) {
+    const double rate = steady_rate(clock);
+    return clock->tick * (rate != 0 ? fabs(rate) : 1);
+}
+
+static size_t first_window(const Settings *settings, const Clock *clock) {
+    const double from = ((const StressSettings *)settings->bytes)->average_from;
+    const double window = (double)period_for(settings, clock) * advance_of(clock);
+    return (size_t)ceil(fmin(from / window, 1e9) * (1 - 1e-9));
+}
+
 static Status check(const Settings *settings, const System *system, const Clock *clock) {
-    (void)settings;
     (void)system;
-    if (clock->flies) return OK;
-    return status_fail(BAD_DATA, "stress: Monte Carlo counts no collisions, from which it is "
-                                 "measured; contact_stress gives it from configurations");
+    if (!clock->flies) {
+        return status_fail(BAD_DATA, "stress: Monte Carlo counts no collisions, from which it is "
+                                     "measured; contact_stress gives it from configurations");
+    }
+    const int64_t windows = looks_count(clock, period_for(settings, clock));
+    if ((int64_t)first_window(settings, clock) < windows) return OK;
+    return status_fail(BAD_DATA,
+                       "stress: average_from = %g leaves nothing of the stage '%s' of %g; make it "
+                       "smaller",
+                       ((const StressSettings *)settings->bytes)->average_from, clock->stage,
+                       (double)clock->ticks * advance_of(clock));
 }
 
 static void discard(Observer *observer) {
@@ -61,6 +95,7 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     self->observer = (Observer){.kind = &observable_stress, .clock = *clock};
     self->period = period_for(settings, clock);
     self->windows = (size_t)looks_count(clock, self->period);
+    self->first = first_window(settings, clock);
     const Status status = NEW_ARRAY(self->stresses, self->windows * STRESSES_MOST);
     if (status != OK) {
         discard(&self->observer);
@@ -104,11 +139,13 @@ static void archive(Observer *observer, Archive *archive) {
     if (archive_status(archive, false) == OK) self->done = (size_t)done;
 }
 
-// Of the windows [begin, end).
+// Of the windows [begin, end); NaN of none.
 static double mean_of(const Stress *self, size_t stress, size_t begin, size_t end) {
-    double sum = 0;
-    for (size_t w = begin; w < end; w++) sum += self->stresses[w * STRESSES_MOST + stress];
-    return sum / (double)(end - begin);
+    double sum = 0, windows = 0;
+    for (size_t w = begin; w < end; w++, windows++) {
+        sum += self->stresses[w * STRESSES_MOST + stress];
+    }
+    return sum / windows;
 }
 
 // Windows are put together into this many stretches, long enough not to know of each other.
@@ -116,11 +153,12 @@ enum { STRETCHES = 16 };
 
 static double relative_error(const Observer *observer) {
     const Stress *self = (const Stress *)observer;
-    const size_t length = self->done / STRETCHES;
-    if (length == 0 || self->done % STRETCHES != 0) return INFINITY;
+    if (self->done <= self->first || (self->done - self->first) % STRETCHES != 0) return INFINITY;
+    const size_t length = (self->done - self->first) / STRETCHES;
     double sum = 0, squares = 0;
     for (size_t k = 0; k < STRETCHES; k++) {
-        const double mean = mean_of(self, 0, k * length, (k + 1) * length);
+        const size_t begin = self->first + k * length;
+        const double mean = mean_of(self, 0, begin, begin + length);
         sum += mean;
         squares += mean * mean;
     }
@@ -129,8 +167,8 @@ static double relative_error(const Observer *observer) {
     return sqrt(variance) / fabs(mean);
 }
 
-static double steady_rate(const Clock *clock) {
-    return clock->drive ? clock->drive->flow.rate : 0;
+static double stage_mean(const Stress *self, size_t stress) {
+    return mean_of(self, stress, self->first, self->done);
 }
 
 static Status put_scalars(const Stress *self, const State *state, Results *results,
@@ -139,27 +177,28 @@ static Status put_scalars(const Stress *self, const State *state, Results *resul
     const int dimension = state->box.dimension;
     for (size_t s = 0; s < stress_count(dimension); s++) {
         TRY(observer_put_scalar(observer, stress_names[s], stress_unit(dimension), stress_abouts[s],
-                                results, replica, mean_of(self, s, 0, self->done)));
+                                results, replica, stage_mean(self, s)));
     }
     const Clock *clock = &observer->clock;
     const double rate = steady_rate(clock);
     if (rate == 0) return OK;
     TRY(observer_put_scalar(observer, "stress_strain", "",
                             "Strain over which the stress was averaged.", results, replica,
-                            (double)self->done * (double)self->period * clock->tick * fabs(rate)));
+                            ((double)self->done - (double)self->first) * (double)self->period *
+                                advance_of(clock)));
     return observer_put_scalar(observer, "shear_viscosity", dimension == 2 ? "kT/D0" : "kT/(d D0)",
                                "sigma_xy/shear_rate, of the collisions; the solvent's own is not "
                                "in it.",
-                               results, replica, mean_of(self, 0, 0, self->done) / rate);
+                               results, replica, stage_mean(self, 0) / rate);
 }
 
 static Status put_windows(const Stress *self, const State *state, double *values, double *axis,
                           Results *results, size_t replica) {
     const Clock *clock = &self->observer.clock;
-    const double rate = steady_rate(clock), per_tick = clock->tick * (rate != 0 ? fabs(rate) : 1);
+    const double rate = steady_rate(clock);
     const size_t kinds = stress_count(state->box.dimension);
     for (size_t w = 0; w < self->windows; w++) {
-        axis[w] = ((double)w + 0.5) * (double)self->period * per_tick;
+        axis[w] = ((double)w + 0.5) * (double)self->period * advance_of(clock);
         for (size_t s = 0; s < kinds; s++) {
             values[s * self->windows + w] =
                 w < self->done ? self->stresses[w * STRESSES_MOST + s] : (double)NAN;
