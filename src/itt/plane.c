@@ -6,6 +6,7 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum { MARGIN = 3 }; // zeros at each end of a column: cubic interpolation reads that far
 
@@ -77,21 +78,47 @@ static Rows rows_reached(int half, double whole) {
     return first > last ? (Rows){1, 0} : (Rows){(int)first, (int)last};
 }
 
+// Of Lagrange's polynomial through rows -1, 0, 1, 2, at 0 <= u < 1.
+static void cubic_weights(double u, double weight[4]) {
+    weight[0] = -u * (u - 1) * (u - 2) / 6;
+    weight[1] = (u + 1) * (u - 1) * (u - 2) / 2;
+    weight[2] = -(u + 1) * u * (u - 2) / 2;
+    weight[3] = (u + 1) * u * (u - 1) / 6;
+}
+
 void plane_add_advected(const Plane *plane, double strain, const double *field, const double *part,
                         double *sum) {
     for (int i = 0; i <= plane->last; i++) {
         const double way = -strain * i, whole = floor(way), u = way - whole;
         const Rows rows = rows_reached(plane->half[i], whole);
         if (rows.first > rows.last) continue;
-        // Lagrange's polynomial through rows -1, 0, 1, 2 at 0 <= u < 1.
-        const double w0 = -u * (u - 1) * (u - 2) / 6, w1 = (u + 1) * (u - 1) * (u - 2) / 2;
-        const double w2 = -(u + 1) * u * (u - 2) / 2, w3 = (u + 1) * u * (u - 1) / 6;
+        double w[4];
+        cubic_weights(u, w);
         const size_t to = plane_place(plane, i, rows.first);
         const double *from = field + plane_place(plane, i, rows.first + (int)whole);
         const size_t count = (size_t)(rows.last - rows.first + 1);
         for (size_t k = 0; k < count; k++) {
             const double *f = from + k;
-            sum[to + k] += part[to + k] * (w0 * f[-1] + w1 * f[0] + w2 * f[1] + w3 * f[2]);
+            sum[to + k] += part[to + k] * (w[0] * f[-1] + w[1] * f[0] + w[2] * f[1] + w[3] * f[2]);
         }
     }
+}
+
+// At any i and j: q and -q are the same; zero beyond the cutoff.
+static double value_at(const Plane *plane, const double *field, int i, int j) {
+    if (i < 0) return value_at(plane, field, -i, -j);
+    if (i > plane->last || abs(j) > plane->half[i]) return 0;
+    return field[plane_place(plane, i, j)];
+}
+
+double plane_read(const Plane *plane, const double *field, double x, double y) {
+    const double i = floor(x / plane->spacing), j = floor(y / plane->spacing);
+    double along[4], across[4], sum = 0;
+    cubic_weights(x / plane->spacing - i, along);
+    cubic_weights(y / plane->spacing - j, across);
+    for (int a = 0; a < 4; a++) {
+        for (int b = 0; b < 4; b++)
+            sum += along[a] * across[b] * value_at(plane, field, (int)i + a - 1, (int)j + b - 1);
+    }
+    return sum;
 }

@@ -27,3 +27,6 @@ void plane_add_advected(const Plane *plane, double strain, const double *field, 
                         double *sum);
 
 size_t plane_place(const Plane *plane, int i, int j); // of q = spacing (i, j), i >= 0, in a field
+
+// A field between the wave vectors, q_x of any sign, by cubics along both axes.
+double plane_read(const Plane *plane, const double *field, double x, double y);

@@ -167,11 +167,12 @@ void transient_free(Transient *t) {
     memory_free(t);
 }
 
-size_t transient_memory(const Plane *plane, const TransientSettings *settings) {
-    const size_t block = settings->block ? settings->block : BLOCK;
-    const size_t fields = (3 * block + 10) * (settings->tagged ? 2 : 1) + 30;
-    const size_t space = 13 * 5 * (size_t)plane->last * (size_t)plane->last;
-    return sizeof(double) * (fields * plane->size + space);
+size_t transient_memory(double cutoff, double spacing, const TransientSettings *settings) {
+    const double columns = cutoff / spacing,
+                 block = (double)(settings->block ? settings->block : BLOCK);
+    const double fields = (3 * block + 10) * (settings->tagged ? 2 : 1) + 30;
+    const double size = columns * (1.6 * columns + 6), room = 5 * columns * columns;
+    return (size_t)(sizeof(double) * (fields * size + 15 * room));
 }
 
 double transient_time(const Transient *t) {

@@ -25,7 +25,8 @@ typedef struct Transient Transient;
 Status transient_create(Transient **out, const Plane *plane, const Direct *direct,
                         const TransientSettings *settings);
 void transient_free(Transient *transient);
-size_t transient_memory(const Plane *plane, const TransientSettings *settings); // bytes, about
+// Bytes, about.
+size_t transient_memory(double cutoff, double spacing, const TransientSettings *settings);
 
 Status transient_advance(Transient *transient); // the next time of the grid
 

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run of the theory under shear: the transition where it is asked for, the structure, then the
+// transients from time to time.
+#include "itt/itt.h"
+
+#include "base/constants.h"
+#include "base/memory.h"
+#include "itt/direct.h"
+#include "itt/flow.h"
+#include "itt/put.h"
+#include "itt/transient.h"
+#include "mct/critical.h"
+#include "oz/oz.h"
+
+#include <math.h>
+
+enum { TABLE = 3000, SLICE = 4 };      // entries of c(q); times between two looks from outside
+static const double TABLE_END = 3;     // in units of the cutoff: advected wave vectors are longer
+static const double BEGIN = 1e-7;      // time from which progress counts
+static const double UNFINISHED = 1e-3; // of the stress, in what its integral still adds
+
+static const Mixture DISCS = {2, 1, {1}, {1}};
+// Of the search for the glass transition: five digits of its packing fraction.
+enum { CRITICAL_WAVES = 203 };
+static const double CRITICAL_LAST = 40, CRITICAL_LOW = 0.6, CRITICAL_HIGH = 0.76;
+
+typedef enum Step { STEP_CRITICAL, STEP_STRUCTURE, STEP_TRANSIENTS, STEP_DONE } Step;
+
+struct Itt {
+    const IttPlan *plan;
+    Step step;
+    double packing_fraction;
+    Plane *plane;
+    Direct *direct;
+    Transient *transient;
+    Flow *flow;
+    Record record;
+    double next_time;                      // to be kept
+    double before[2][2];                   // strain and stress of the two looks before
+    double overshoot, strain_at_overshoot; // 0: the stress has had no maximum yet
+};
+
+static Status find_critical(Itt *itt, Results *results) {
+    CriticalPoint *point = NULL;
+    const CriticalSearch search = {.mixture = DISCS,
+                                   .closure = (Closure)itt->plan->structure,
+                                   .count = CRITICAL_WAVES,
+                                   .last = CRITICAL_LAST,
+                                   .low = CRITICAL_LOW,
+                                   .high = CRITICAL_HIGH};
+    TRY(critical_find(&point, &search));
+    const double critical = point->packing_fraction;
+    critical_free(point);
+    itt->packing_fraction = critical * (1 + itt->plan->separation);
+    itt->step = STEP_STRUCTURE;
+    return record_put_number(results, "critical_packing_fraction", "",
+                             "Packing fraction of the glass transition at rest.", critical);
+}
+
+// ---- Structure ---------------------------------------------------------------------------------
+
+static Status tabulate(Itt *itt, Oz *oz, double spacing, Results *results) {
+    const Structure *s = NULL;
+    TRY(oz_solve(oz, itt->packing_fraction, &s));
+    TRY(record_put_number(results, "packing_fraction", "", "Packing fraction of the discs.",
+                          itt->packing_fraction));
+    TRY(results_put_health(results, "structure_residual",
+                           "largest residual of the closure, where it is solved numerically", 1e-8,
+                           oz_effort(oz).residual));
+    return direct_create(&itt->direct, s->density, spacing, s->direct, TABLE);
+}
+
+static Status solve_structure(Itt *itt, Results *results) {
+    double wave_number[TABLE];
+    const double spacing = TABLE_END * itt->plan->last_wave_number / TABLE;
+    Oz *oz = NULL;
+    for (size_t i = 0; i < TABLE; i++) wave_number[i] = direct_wave_number(spacing, i);
+    TRY(oz_create(&oz, (Closure)itt->plan->structure, &DISCS, wave_number, TABLE));
+    const Status status = tabulate(itt, oz, spacing, results);
+    oz_free(oz);
+    itt->step = STEP_TRANSIENTS;
+    return status;
+}
+
+// ---- Transients --------------------------------------------------------------------------------
+
+// Where S(q) is largest, on the table.
+static double peak(const Direct *direct) {
+    double best = 0, most = 0;
+    for (size_t i = 0; i < direct->count / 2; i++) {
+        const double q = direct_wave_number(direct->spacing, i), s = direct_factor(direct, q);
+        if (s > most) best = q;
+        most = fmax(most, s);
+    }
+    return best;
+}
+
+static Status begin_record(Itt *itt) {
+    const IttPlan *plan = itt->plan;
+    const OptionReals *wanted = &plan->wave_numbers;
+    const size_t waves = wanted->count > 0 ? (size_t)wanted->count : 1;
+    const double decades = log10(plan->last_strain / plan->shear_rate / plan->first_time);
+    for (size_t i = 0; i < waves; i++)
+        itt->record.wave_number[i] = wanted->count > 0 ? wanted->values[i] : peak(itt->direct);
+    itt->next_time = plan->first_time;
+    return record_create(&itt->record, waves,
+                         (size_t)(decades * (double)plan->times_per_decade) + 3, plan->tagged);
+}
+
+static Status begin_transients(Itt *itt) {
+    const IttPlan *plan = itt->plan;
+    const TransientSettings settings = {plan->shear_rate, (size_t)plan->block, plan->tagged};
+    TRY(plane_create(&itt->plane, plan->last_wave_number, plan->spacing));
+    TRY(transient_create(&itt->transient, itt->plane, itt->direct, &settings));
+    TRY(flow_create(&itt->flow, itt->plane, itt->direct, plan->shear_rate));
+    flow_see(itt->flow, 0, transient_collective(itt->transient));
+    return begin_record(itt);
+}
+
+static void keep(Itt *itt) {
+    Record *r = &itt->record;
+    const size_t t = r->times++, lines = TRANSIENT_DIRECTIONS * r->waves;
+    r->time[t] = transient_time(itt->transient);
+    r->strain[t] = transient_strain(itt->transient);
+    r->modulus[t] = flow_modulus(itt->flow);
+    r->stress[2 * t] = flow_stress(itt->flow);
+    r->stress[2 * t + 1] = flow_normal_difference(itt->flow);
+    for (size_t i = 0; i < lines; i++) {
+        double x, y;
+        record_vector((int)(i / r->waves), r->wave_number[i % r->waves], &x, &y);
+        r->collective[t * lines + i] =
+            plane_read(itt->plane, transient_collective(itt->transient), x, y);
+        if (r->tagged)
+            r->tagged[t * lines + i] =
+                plane_read(itt->plane, transient_tagged(itt->transient), x, y);
+    }
+    for (int d = 0; r->displacement && d < TRANSIENT_DIRECTIONS; d++)
+        r->displacement[t * TRANSIENT_DIRECTIONS + (size_t)d] =
+            transient_displacement(itt->transient, d);
+}
+
+// The largest stress, by the parabola through three looks where the middle one is above the others
+// and above all before.
+static void find_overshoot(Itt *itt) {
+    const double now[2] = {transient_strain(itt->transient), flow_stress(itt->flow)};
+    const double *a = itt->before[0], *b = itt->before[1];
+    if (b[1] > a[1] && b[1] > now[1] && b[1] > itt->overshoot) {
+        const double left = (b[1] - a[1]) / (b[0] - a[0]),
+                     right = (now[1] - b[1]) / (now[0] - b[0]);
+        const double curvature = (right - left) / (now[0] - a[0]);
+        const double slope = left + curvature * (b[0] - a[0]); // at the middle
+        itt->strain_at_overshoot = b[0] - slope / (2 * curvature);
+        itt->overshoot = b[1] - slope * slope / (4 * curvature);
+    }
+    for (int i = 0; i < 2; i++) {
+        itt->before[0][i] = itt->before[1][i];
+        itt->before[1][i] = now[i];
+    }
+}
+
+static Status advance(Itt *itt, bool *done) {
+    TRY(transient_advance(itt->transient));
+    const double time = transient_time(itt->transient);
+    flow_see(itt->flow, time, transient_collective(itt->transient));
+    find_overshoot(itt);
+    *done = transient_strain(itt->transient) >= itt->plan->last_strain;
+    if (time < itt->next_time && !*done) return OK;
+    keep(itt);
+    while (itt->next_time <= time)
+        itt->next_time *= pow(10, 1 / (double)itt->plan->times_per_decade);
+    *done = *done || itt->record.times == itt->record.times_most;
+    return OK;
+}
+
+static Status put_flow(const Itt *itt, Results *results) {
+    const double rate = itt->plan->shear_rate, stress = flow_stress(itt->flow);
+    TRY(record_put_number(results, "shear_rate", "D0/d^2", "Shear rate.", rate));
+    TRY(record_put_number(results, "shear_stress", "kT/d^2", "sigma_xy at the last strain.",
+                          stress));
+    TRY(record_put_number(results, "normal_stress_difference", "kT/d^2",
+                          "sigma_xx - sigma_yy at the last strain.",
+                          flow_normal_difference(itt->flow)));
+    TRY(record_put_number(results, "shear_viscosity", "kT/D0",
+                          "sigma_xy over the shear rate, without that of the solvent.",
+                          stress / rate));
+    TRY(results_put_health(
+        results, "stress_unfinished",
+        "what the integral for the stress still grew by per unit of ln t at the "
+        "end, over the stress",
+        UNFINISHED, fabs(flow_modulus(itt->flow) * transient_strain(itt->transient) / stress)));
+    if (itt->overshoot == 0) return OK;
+    TRY(record_put_number(results, "largest_stress", "kT/d^2",
+                          "Maximum of the stress after the start of shear.", itt->overshoot));
+    return record_put_number(results, "strain_at_largest_stress", "",
+                             "Strain at the maximum of the stress.", itt->strain_at_overshoot);
+}
+
+// dy^2 has grown like the time over the last two that are kept.
+static Status put_diffusion(const Itt *itt, Results *results) {
+    const Record *r = &itt->record;
+    if (!r->displacement || r->times < 2) return OK;
+    const double *last = r->displacement + (r->times - 1) * TRANSIENT_DIRECTIONS;
+    const double *before = last - TRANSIENT_DIRECTIONS;
+    const double slope = (last[1] - before[1]) / (r->time[r->times - 1] - r->time[r->times - 2]);
+    return record_put_number(results, "diffusion_across_flow", "D0",
+                             "Slope of the displacement along y over 2 t, at the last strain.",
+                             slope / 2);
+}
+
+static Status put_structure(const Itt *itt, Results *results) {
+    double *rest = NULL;
+    TRY(NEW_ARRAY(rest, itt->plane->size));
+    for (size_t k = 0; k < itt->plane->size; k++)
+        rest[k] = direct_factor(itt->direct, hypot(itt->plane->x[k], itt->plane->y[k]));
+    const Status status =
+        record_put_structure(results, itt->plane, rest, flow_distortion(itt->flow));
+    memory_free(rest);
+    return status;
+}
+
+static Status solve_transients(Itt *itt, Results *results) {
+    bool done = false;
+    if (!itt->transient) TRY(begin_transients(itt));
+    for (int i = 0; i < SLICE && !done; i++) TRY(advance(itt, &done));
+    if (!done) return OK;
+    TRY(put_flow(itt, results));
+    TRY(put_diffusion(itt, results));
+    TRY(record_put(&itt->record, results));
+    TRY(put_structure(itt, results));
+    itt->step = STEP_DONE;
+    return OK;
+}
+
+// ---- The whole ---------------------------------------------------------------------------------
+
+Status itt_create(Itt **out, const IttPlan *plan) {
+    Itt *itt = NULL;
+    *out = NULL;
+    TRY(NEW(itt));
+    itt->plan = plan;
+    itt->packing_fraction = plan->packing_fraction;
+    itt->step = plan->packing_fraction > 0 ? STEP_STRUCTURE : STEP_CRITICAL;
+    *out = itt;
+    return OK;
+}
+
+void itt_free(Itt *itt) {
+    if (!itt) return;
+    record_free(&itt->record);
+    flow_free(itt->flow);
+    transient_free(itt->transient);
+    plane_free(itt->plane);
+    direct_free(itt->direct);
+    memory_free(itt);
+}
+
+Status itt_advance(Itt *itt, Results *results) {
+    static Status (*const work[STEP_DONE])(Itt *, Results *) = {find_critical, solve_structure,
+                                                                solve_transients};
+    return work[itt->step](itt, results);
+}
+
+bool itt_finished(const Itt *itt) {
+    return itt->step == STEP_DONE;
+}
+
+double itt_progress(const Itt *itt) {
+    if (itt->step == STEP_DONE) return 1;
+    if (!itt->transient) return 0;
+    const double end = itt->plan->last_strain / itt->plan->shear_rate;
+    return fmin(0.999, fmax(0, log(itt_time(itt) / BEGIN) / log(end / BEGIN)));
+}
+
+const char *itt_doing(const Itt *itt) {
+    static const char *const doing[] = {"critical point", "structure", "transients", ""};
+    return doing[itt->step];
+}
+
+double itt_time(const Itt *itt) {
+    return itt->transient ? transient_time(itt->transient) : 0;
+}

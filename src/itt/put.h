@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Results of the theory under shear: stage `theory`, one replica. Inside itt/ only.
+#pragma once
+
+#include "itt/itt.h"
+#include "itt/plane.h"
+#include "itt/transient.h"
+
+// What is kept while time goes on, the slowest index first.
+typedef struct Record {
+    size_t waves, times, times_most;
+    double wave_number[OPTION_LIST_SIZE];
+    double *time, *strain;       // [times_most]
+    double *modulus;             // [times_most]
+    double *stress;              // [times_most][2]: shear stress, normal stress difference
+    double *collective, *tagged; // [times_most][direction][wave]; tagged NULL: none
+    double *displacement;        // [times_most][direction]; NULL: none
+} Record;
+
+// Room for these times; which wave numbers is set by the caller.
+Status record_create(Record *record, size_t waves, size_t times, bool tagged);
+void record_free(Record *record);
+
+Status record_put(const Record *record, Results *results);
+Status record_put_number(Results *results, const char *name, const char *unit, const char *about,
+                         double value);
+
+// S(q) under shear and its change, on the plane and along its cuts; `rest` is S at rest.
+Status record_put_structure(Results *results, const Plane *plane, const double *rest,
+                            const double *change);
+
+// The wave vector of this length in a direction.
+void record_vector(int direction, double length, double *x, double *y);
