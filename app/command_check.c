@@ -152,8 +152,23 @@ static void print_theory(const TheoryPlan *theory) {
     printf("\n");
 }
 
+static void print_itt(const IttPlan *itt) {
+    printf("theory    discs under shear, structure: %s\n", itt_structure_name(itt));
+    printf("          shear rate %.6g D0/d^2 up to a strain of %.6g\n", itt->shear_rate,
+           itt->last_strain);
+    printf("          wave vectors up to %.6g/d, spacing %.6g/d\n", itt->last_wave_number,
+           itt->spacing);
+    printf("memory    %.3g MiB\ntime      about ", (double)itt_memory(itt) / MEBIBYTE);
+    print_seconds(itt_seconds(itt));
+    printf("\n");
+}
+
 static Status print_plan(const Plan *plan) {
     if (plan->title[0] != '\0') printf("%s\n", plan->title);
+    if (plan->itt.given) {
+        print_itt(&plan->itt);
+        return OK;
+    }
     if (plan_is_theory(plan)) {
         print_theory(&plan->theory);
         return OK;

@@ -305,11 +305,21 @@ Status judge_theory(const Node *root, const TheoryPlan *theory) {
     return placed(root, map, theory_check(theory));
 }
 
+Status judge_itt(const Node *root, const IttPlan *itt) {
+    return placed(root, tree_find(root, "itt"), itt_check(itt));
+}
+
 Status judge_memory(const Node *root, const Plan *plan) {
     static const double GIBIBYTE = 1073741824;
     const double there = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
     const double needed = (double)plan_memory(plan);
     if (there <= 0 || needed <= there) return OK;
+    if (plan->itt.given)
+        return tree_fail(place(root, "itt", "wave_numbers"),
+                         "wave numbers up to %g with spacing %g need %.3g GiB of memory; this "
+                         "machine has %.3g GiB",
+                         plan->itt.last_wave_number, plan->itt.spacing, needed / GIBIBYTE,
+                         there / GIBIBYTE);
     if (plan_is_theory(plan))
         return tree_fail(place(root, "theory", "wave_numbers"),
                          "%lld wave numbers need %.3g GiB of memory; this machine has %.3g GiB",

@@ -11,6 +11,7 @@ Status judge_plan(const Node *root, const Plan *plan);
 
 // Likewise a run of the theory.
 Status judge_theory(const Node *root, const TheoryPlan *theory);
+Status judge_itt(const Node *root, const IttPlan *itt);
 
 // BAD_DATA if one replica does not fit into the memory of this machine.
 Status judge_memory(const Node *root, const Plan *plan);

@@ -251,13 +251,13 @@ static Status read_theory_species(const Node *node, TheorySpecies *species) {
     return read_section(name, &theory_species_options, species, NULL, node, true);
 }
 
-// A run of the theory has no other section.
-static Status check_alone(const Node *root) {
-    static const char *const allowed[] = {"title", "theory", "sweep"};
+// A run of a theory has no other section.
+static Status check_alone(const Node *root, const char *section) {
+    const char *const allowed[] = {"title", "sweep", section};
     for (const Node *node = root->first; node; node = node->next) {
         bool known = false;
         for (size_t i = 0; i < COUNT(allowed); i++) known = known || !strcmp(node->key, allowed[i]);
-        if (!known) return tree_fail(node, "a run file with 'theory' has no '%s'", node->key);
+        if (!known) return tree_fail(node, "a run file with '%s' has no '%s'", section, node->key);
     }
     return OK;
 }
@@ -266,7 +266,7 @@ static Status read_theory(const Node *root, const Node *map, Plan *plan) {
     static const char *const others[] = {"species", NULL};
     const Node *species = NULL;
     TheoryPlan *theory = &plan->theory;
-    TRY(check_alone(root));
+    TRY(check_alone(root, "theory"));
     TRY(options_default(&theory_options, theory));
     TRY(read_section("theory", &theory_options, theory, others, map, true));
     TRY(find_required(map, "species", "a map from names to particles", &species));
@@ -283,12 +283,23 @@ static Status read_theory(const Node *root, const Node *map, Plan *plan) {
     return judge_theory(root, theory);
 }
 
+static Status read_itt(const Node *root, const Node *map, Plan *plan) {
+    TRY(check_alone(root, "itt"));
+    TRY(options_default(&itt_options, &plan->itt));
+    TRY(read_section("itt", &itt_options, &plan->itt, NULL, map, true));
+    plan->itt.given = true;
+    plan->ensemble.replicas = 1;
+    return judge_itt(root, &plan->itt);
+}
+
 static Status read_plan(const Node *root, Plan *plan) {
     const Node *dynamics = NULL;
     TRY(options_default(&section_title_options, plan));
     TRY(read_section("the run file", &section_title_options, plan, section_root_keys, root, true));
     const Node *theory = tree_find(root, "theory");
     if (theory) return read_theory(root, theory, plan);
+    const Node *itt = tree_find(root, "itt");
+    if (itt) return read_itt(root, itt, plan);
     TRY(read_system(root, &plan->system));
     TRY(find_required(root, "dynamics", "how time advances, as {method: event-driven}", &dynamics));
     TRY(read_dynamics(dynamics, "dynamics", &plan->dynamics));

@@ -34,7 +34,7 @@ const OptionTable section_range_options = {range_rows, sizeof range_rows / sizeo
                                            sizeof(SweepRange)};
 
 const char *const section_root_keys[] = {"system", "dynamics", "protocol", "observe", "ensemble",
-                                         "output", "sweep",    "theory",   NULL};
+                                         "output", "sweep",    "theory",   "itt",     NULL};
 
 static const Section before_methods[] = {
     {"", NULL, "A run file is one YAML map of sections.", &section_title_options},
@@ -79,6 +79,11 @@ static const Section after_observables[] = {
      "One kind of particles of the theory, under a name of your choice. The first sets the unit of "
      "time by its free diffusion coefficient D0.",
      &theory_species_options},
+    {"itt", NULL,
+     "Mode-coupling theory of equal discs under shear that begins at time 0, integrated through "
+     "the "
+     "transients, in place of system, dynamics and protocol.",
+     &itt_options},
 };
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
@@ -149,7 +154,6 @@ static const struct {
     {"pull", "this version pulls no particle; its stages are at rest"},
     {"schematic", "this version has no schematic models; theory has the equations for discs and "
                   "spheres"},
-    {"itt", "this version has no theory under shear; theory has it at rest"},
     {"closure", "where the theory takes its structure from is called structure"},
     {"shear_stress", "it is called stress"},
     {"coherent_scattering", "it is called collective_scattering"},

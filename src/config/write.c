@@ -113,9 +113,18 @@ static void write_theory(const TheoryPlan *theory, Text *text) {
     }
 }
 
+static void write_itt(const IttPlan *itt, Text *text) {
+    text_add(text, "\nitt:\n");
+    write_table(&itt_options, NULL, itt, STEP, text);
+}
+
 static void write_plan(const Plan *plan, Text *text) {
     text_add(text, "# A run file with every value written out; `perrin explain KEY` says more.\n");
     write_table(&section_title_options, NULL, plan, 0, text);
+    if (plan->itt.given) {
+        write_itt(&plan->itt, text);
+        return;
+    }
     if (plan_is_theory(plan)) {
         write_theory(&plan->theory, text);
         return;

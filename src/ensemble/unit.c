@@ -3,6 +3,7 @@
 #include "ensemble/unit.h"
 
 #include "base/seconds.h"
+#include "protocol/calculation.h"
 #include "protocol/replica.h"
 #include "store/checkpoint.h"
 #include "store/trajectory.h"
@@ -168,41 +169,41 @@ static Status run_unit(Run *run) {
     return collect(run);
 }
 
-static void tell_theory(EnsembleShared *shared, const Theory *theory, bool running) {
+static void tell_calculation(EnsembleShared *shared, const Calculation *calculation, bool running) {
     Unit *unit = &shared->units[0];
     pthread_mutex_lock(&shared->mutex);
     unit->running = running;
-    unit->fraction = theory_progress(theory);
-    unit->stage = theory_doing(theory);
-    unit->stage_time = theory_time(theory);
+    unit->fraction = calculation_progress(calculation);
+    unit->stage = calculation_doing(calculation);
+    unit->stage_time = calculation_time(calculation);
     unit->stage_unit = unit->stage_time > 0 ? "d^2/D0" : NULL;
-    unit->finished = theory_finished(theory);
+    unit->finished = calculation_finished(calculation);
     unit->cpu_seconds = thread_seconds();
     pthread_mutex_unlock(&shared->mutex);
 }
 
 // The one unit of a run of the theory, which alone puts results in. It keeps no checkpoints.
-static Status run_theory(EnsembleShared *shared, Theory *theory) {
-    tell_theory(shared, theory, true);
-    while (!theory_finished(theory)) {
+static Status run_calculation(EnsembleShared *shared, Calculation *calculation) {
+    tell_calculation(shared, calculation, true);
+    while (!calculation_finished(calculation)) {
         if (atomic_load(&shared->stop)) return status_fail(INTERRUPTED, "the theory was stopped");
-        TRY(theory_advance(theory, shared->results));
-        tell_theory(shared, theory, true);
+        TRY(calculation_advance(calculation, shared->results));
+        tell_calculation(shared, calculation, true);
     }
     return OK;
 }
 
-static Status unit_theory(EnsembleShared *shared) {
-    Theory *theory = NULL;
-    TRY(theory_create(&theory, &shared->plan->theory));
-    const Status status = run_theory(shared, theory);
-    tell_theory(shared, theory, false);
-    theory_free(theory);
+static Status unit_calculation(EnsembleShared *shared) {
+    Calculation *calculation = NULL;
+    TRY(calculation_create(&calculation, shared->plan));
+    const Status status = run_calculation(shared, calculation);
+    tell_calculation(shared, calculation, false);
+    calculation_free(calculation);
     return status;
 }
 
 Status unit_run(EnsembleShared *shared, size_t replica) {
-    if (plan_is_theory(shared->plan)) return unit_theory(shared);
+    if (plan_is_theory(shared->plan)) return unit_calculation(shared);
     Run run = {.shared = shared, .index = replica};
     Status status = run_unit(&run);
     // A trajectory that cannot be closed may have lost frames: that is a failure like another.

@@ -19,6 +19,8 @@ static const double TABLE_END = 3;     // in units of the cutoff: advected wave 
 static const double BEGIN = 1e-7;      // time from which progress counts
 static const double UNFINISHED = 1e-3; // of the stress, in what its integral still adds
 
+static const double FIRST_STRAIN = 1e-3; // from which the stress is kept
+
 static const Mixture DISCS = {2, 1, {1}, {1}};
 // Of the search for the glass transition: five digits of its packing fraction.
 enum { CRITICAL_WAVES = 203 };
@@ -102,9 +104,13 @@ static Status begin_record(Itt *itt) {
     const double decades = log10(plan->last_strain / plan->shear_rate / plan->first_time);
     for (size_t i = 0; i < waves; i++)
         itt->record.wave_number[i] = wanted->count > 0 ? wanted->values[i] : peak(itt->direct);
+    // Half a block for each doubling of the strain.
+    const double strains =
+        ((double)plan->block / 2) * (fmax(0, log2(plan->last_strain / FIRST_STRAIN)) + 3);
     itt->next_time = plan->first_time;
     return record_create(&itt->record, waves,
-                         (size_t)(decades * (double)plan->times_per_decade) + 3, plan->tagged);
+                         (size_t)(decades * (double)plan->times_per_decade) + 3, (size_t)strains,
+                         plan->tagged);
 }
 
 static Status begin_transients(Itt *itt) {
@@ -121,10 +127,7 @@ static void keep(Itt *itt) {
     Record *r = &itt->record;
     const size_t t = r->times++, lines = TRANSIENT_DIRECTIONS * r->waves;
     r->time[t] = transient_time(itt->transient);
-    r->strain[t] = transient_strain(itt->transient);
     r->modulus[t] = flow_modulus(itt->flow);
-    r->stress[2 * t] = flow_stress(itt->flow);
-    r->stress[2 * t + 1] = flow_normal_difference(itt->flow);
     for (size_t i = 0; i < lines; i++) {
         double x, y;
         record_vector((int)(i / r->waves), r->wave_number[i % r->waves], &x, &y);
@@ -137,6 +140,17 @@ static void keep(Itt *itt) {
     for (int d = 0; r->displacement && d < TRANSIENT_DIRECTIONS; d++)
         r->displacement[t * TRANSIENT_DIRECTIONS + (size_t)d] =
             transient_displacement(itt->transient, d);
+}
+
+// At all times from the first strain that is kept.
+static void keep_stress(Itt *itt) {
+    Record *r = &itt->record;
+    const double strain = transient_strain(itt->transient);
+    if (strain < FIRST_STRAIN || r->strains == r->strains_most) return;
+    r->strain[r->strains] = strain;
+    r->stress[2 * r->strains] = flow_stress(itt->flow);
+    r->stress[2 * r->strains + 1] = flow_normal_difference(itt->flow);
+    r->strains++;
 }
 
 // The largest stress, by the parabola through three looks where the middle one is above the others
@@ -163,6 +177,7 @@ static Status advance(Itt *itt, bool *done) {
     const double time = transient_time(itt->transient);
     flow_see(itt->flow, time, transient_collective(itt->transient));
     find_overshoot(itt);
+    keep_stress(itt);
     *done = transient_strain(itt->transient) >= itt->plan->last_strain;
     if (time < itt->next_time && !*done) return OK;
     keep(itt);

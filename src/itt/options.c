@@ -111,7 +111,8 @@ const OptionTable itt_options = {rows, sizeof rows / sizeof *rows, sizeof(IttPla
 static Status check_wave_numbers(const IttPlan *plan) {
     const double least = 4;
     if (plan->last_wave_number / plan->spacing < 10)
-        return status_fail(BAD_DATA, "wave_numbers: last = %g is less than ten times spacing = %g",
+        return status_fail(BAD_DATA,
+                           "wave_numbers.last = %g is less than ten times the spacing = %g",
                            plan->last_wave_number, plan->spacing);
     for (int64_t i = 0; i < plan->wave_numbers.count; i++) {
         const double q = plan->wave_numbers.values[i];

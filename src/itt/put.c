@@ -24,14 +24,15 @@ void record_vector(int direction, double length, double *x, double *y) {
     *y = length * way[direction][1];
 }
 
-Status record_create(Record *r, size_t waves, size_t times, bool tagged) {
+Status record_create(Record *r, size_t waves, size_t times, size_t strains, bool tagged) {
     const size_t correlators = times * TRANSIENT_DIRECTIONS * waves;
     r->waves = waves;
     r->times_most = times;
+    r->strains_most = strains;
     TRY(NEW_ARRAY(r->time, times));
-    TRY(NEW_ARRAY(r->strain, times));
     TRY(NEW_ARRAY(r->modulus, times));
-    TRY(NEW_ARRAY(r->stress, 2 * times));
+    TRY(NEW_ARRAY(r->strain, strains));
+    TRY(NEW_ARRAY(r->stress, 2 * strains));
     TRY(NEW_ARRAY(r->collective, correlators));
     if (!tagged) return OK;
     TRY(NEW_ARRAY(r->tagged, correlators));
@@ -109,8 +110,8 @@ Status record_put(const Record *r, Results *results) {
     ResultSeries stress =
         shape_of("stress", "kT/d^2", "Stress after the start of shear, as a function of strain.");
     add_labels(&stress, "stress", 2, STRESSES);
-    add_numbers(&stress, "strain", "", r->times, r->strain);
-    TRY(put_turned(results, &stress, r->stress, r->times, 2));
+    add_numbers(&stress, "strain", "", r->strains, r->strain);
+    TRY(put_turned(results, &stress, r->stress, r->strains, 2));
     ResultSeries modulus =
         shape_of("transient_modulus", "kT/d^2",
                  "G(t) under shear: the stress is the shear rate times its integral.");

@@ -10,15 +10,15 @@
 typedef struct Record {
     size_t waves, times, times_most;
     double wave_number[OPTION_LIST_SIZE];
-    double *time, *strain;       // [times_most]
-    double *modulus;             // [times_most]
-    double *stress;              // [times_most][2]: shear stress, normal stress difference
+    double *time, *modulus; // [times_most]
+    size_t strains, strains_most;
+    double *strain, *stress;     // [strains_most], and [strains_most][2]: shear, normal difference
     double *collective, *tagged; // [times_most][direction][wave]; tagged NULL: none
     double *displacement;        // [times_most][direction]; NULL: none
 } Record;
 
-// Room for these times; which wave numbers is set by the caller.
-Status record_create(Record *record, size_t waves, size_t times, bool tagged);
+// Room for these times and strains; which wave numbers is set by the caller.
+Status record_create(Record *record, size_t waves, size_t times, size_t strains, bool tagged);
 void record_free(Record *record);
 
 Status record_put(const Record *record, Results *results);

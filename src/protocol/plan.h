@@ -6,6 +6,7 @@
 #include "observables/observables.h"
 #include "propagator/propagator.h"
 #include "state/system.h"
+#include "itt/itt.h"
 #include "theory/theory.h"
 
 enum { STAGES_MOST = 16, OBSERVATIONS_MOST = 32, TITLE_SIZE = OPTION_TEXT_SIZE };
@@ -46,6 +47,7 @@ typedef struct Plan {
     EnsemblePlan ensemble;
     OutputPlan output;
     TheoryPlan theory; // with species: a run of the theory, of which all but the title is empty
+    IttPlan itt;       // given: likewise, of the theory under shear
 } Plan;
 
 extern const OptionTable stage_options;       // of one entry of `protocol:`, beside drive_options
@@ -53,7 +55,7 @@ extern const OptionTable stage_until_options; // of a Stage: how it may end befo
 extern const OptionTable ensemble_options;
 extern const OptionTable output_options;
 
-bool plan_is_theory(const Plan *plan);
+bool plan_is_theory(const Plan *plan); // of either theory: there are no particles
 
 // BAD_DATA with a sentence if a stage cannot be driven like this, or has no end.
 Status stage_check_drive(const Plan *plan, size_t stage);

@@ -89,9 +89,22 @@ static Status put_theory(Results *results, const TheoryPlan *theory) {
     return status;
 }
 
+// "theory of discs under shear, structure: percus-yevick, wave vectors up to 30, spacing 0.3"
+static Status put_itt(Results *results, const IttPlan *itt) {
+    Text words = {0};
+    text_add(&words,
+             "theory of discs under shear, structure: %s, wave vectors up to %.6g, spacing %.6g",
+             itt_structure_name(itt), itt->last_wave_number, itt->spacing);
+    const Status status = results_put_fact(results, "system", text_words(&words));
+    text_free(&words);
+    return status;
+}
+
 Status provenance_put(Results *results, const Plan *plan, const char *plan_text, double seconds) {
     TRY(results_put_fact(results, "title", plan->title));
-    if (plan_is_theory(plan)) {
+    if (plan->itt.given) {
+        TRY(put_itt(results, &plan->itt));
+    } else if (plan_is_theory(plan)) {
         TRY(put_theory(results, &plan->theory));
     } else {
         TRY(put_system(results, &plan->system));

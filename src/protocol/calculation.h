@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run without particles: the one of the theories that a plan asks for.
+#pragma once
+
+#include "protocol/plan.h"
+
+typedef struct Calculation Calculation;
+
+Status calculation_create(Calculation **out, const Plan *plan);
+void calculation_free(Calculation *calculation);
+
+// A slice of the work: mostly below a second. Results are put in as they come.
+Status calculation_advance(Calculation *calculation, Results *results);
+bool calculation_finished(const Calculation *calculation);
+double calculation_progress(const Calculation *calculation);   // 0 to 1
+const char *calculation_doing(const Calculation *calculation); // "critical point"
+double calculation_time(const Calculation *calculation);       // in d^2/D0; 0: none
