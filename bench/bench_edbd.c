@@ -99,13 +99,18 @@ static Figure figure_of(double seconds, double windows, double particles, const 
                     .rate = (double)tally->collisions / (windows * particles)};
 }
 
-static Figure engine_figure(const State *start, const EngineSettings *settings, CpuPath path) {
+// `strain`: of the flow in each step; 0: at rest.
+static Figure engine_figure(const State *start, const EngineSettings *settings, CpuPath path,
+                            double strain) {
     State *state = copy_of(start);
     Engine *engine = NULL;
     Tally tally = {0};
     const int64_t windows = (int64_t)(WORK / (double)state->count);
     setenv("PERRIN_CPU", cpu_path_name(path), 1);
     stop_if(engine_create(&engine, settings, state, KEY));
+    const Flow flow = {.rate = strain};
+    const EngineFlow steady = {.flow = &flow, .step_time = 1};
+    if (strain > 0) stop_if(engine_shear(engine, &steady));
     stop_if(engine_advance(engine, windows / 10, &tally));
     tally = (Tally){0};
     const double begin = bench_user_seconds();
@@ -159,7 +164,7 @@ static void compare(const char *scene, const State *state, const EngineSettings 
     Figure figures[CPU_PATHS + 1][REPEATS];
     for (int repeat = 0; repeat < REPEATS; repeat++) {
         for (int path = 0; path < paths; path++) {
-            figures[path][repeat] = engine_figure(state, settings, (CpuPath)path);
+            figures[path][repeat] = engine_figure(state, settings, (CpuPath)path, 0);
         }
         figures[CPU_PATHS][repeat] = reference_figure(state, settings);
     }
@@ -179,6 +184,24 @@ static void compare(const char *scene, const State *state, const EngineSettings 
     bench_result(name, figures[paths - 1][0].rate, "per particle and window (pairs once)");
 }
 
+// A flow of bare Peclet number 0.1, beside rest.
+static void compare_sheared(const char *scene, const State *state, const EngineSettings *settings) {
+    static const double PECLET = 0.1;
+    const double interval = settings->window * (double)settings->windows_per_step;
+    const double strain = PECLET * interval * interval / 2;
+    Figure rest[REPEATS], sheared[REPEATS];
+    for (int repeat = 0; repeat < REPEATS; repeat++) {
+        rest[repeat] = engine_figure(state, settings, cpu_path(), 0);
+        sheared[repeat] = engine_figure(state, settings, cpu_path(), strain);
+    }
+    char name[80];
+    snprintf(name, sizeof name, "edbd %s sheared", scene);
+    report(name, settings, median_of(sheared));
+    snprintf(name, sizeof name, "edbd %s sheared over rest", scene);
+    bench_result(name, median_of(rest).nanoseconds / median_of(sheared).nanoseconds,
+                 "of the speed at rest");
+}
+
 static void scenes_of(int dimension, const char *density) {
     State *state = settled(dimension, 1000);
     static const double intervals[] = {0.01, 0.001};
@@ -188,6 +211,7 @@ static void scenes_of(int dimension, const char *density) {
             .window = intervals[k], .windows_per_step = 1, .redraw = 1, .stream = STREAM_VELOCITY};
         snprintf(scene, sizeof scene, "%dD %s Delta %g", dimension, density, intervals[k]);
         compare(scene, state, &brownian);
+        compare_sheared(scene, state, &brownian);
     }
     const EngineSettings newtonian = {.window = 0.01, .windows_per_step = 1};
     snprintf(scene, sizeof scene, "%dD %s Newtonian", dimension, density);
@@ -202,7 +226,7 @@ static void size_of(int64_t particles) {
         .window = 0.01, .windows_per_step = 1, .redraw = 1, .stream = STREAM_VELOCITY};
     Figure figures[REPEATS];
     for (int repeat = 0; repeat < REPEATS; repeat++) {
-        figures[repeat] = engine_figure(state, &brownian, cpu_path());
+        figures[repeat] = engine_figure(state, &brownian, cpu_path(), 0);
     }
     char name[64];
     snprintf(name, sizeof name, "edbd 2D 0.79 Delta 0.01 %lld particles", (long long)particles);

@@ -41,9 +41,11 @@ KERNEL void separate(const int dimension, const int flight, const Engine *engine
         v[a] = i[velocity + a] - j[velocity + a];
     }
     if (flight == SHEARED) {
-        const double half = engine->edge[1] / 2, above = r[1] > half ? 1 : r[1] < -half ? -1 : 0;
-        r[0] -= above * engine->offset;
-        v[0] -= above * engine->image_velocity;
+        const double half = engine->edge[1] / 2;
+        if (__builtin_expect((r[1] > half) | (r[1] < -half), 0)) {
+            r[0] -= r[1] > 0 ? engine->offset : -engine->offset;
+            v[0] -= r[1] > 0 ? engine->image_velocity : -engine->image_velocity;
+        }
     }
     for (int a = 0; a < dimension; a++) r[a] = nearest(r[a], engine->edge[a]);
 }

@@ -162,6 +162,11 @@ KERNEL Sieve sieve_of(const int dimension, const int sheared, const Engine *engi
     return sieve;
 }
 
+// Is any of these separations longer than half an edge?
+KERNEL int some_across(Wides y, Wides half) {
+    return (wides_less(half, y) | wides_less(y, -half)) != 0;
+}
+
 // Which of WIDE pairs may meet between the part `gone` of two windows and the end of the first, one
 // bit each.
 KERNEL unsigned may_meet(const int dimension, const int sheared, const Sieve *sieve, const Rows *i,
@@ -171,7 +176,7 @@ KERNEL unsigned may_meet(const int dimension, const int sheared, const Sieve *si
         sketch_separate_2d(i, j, r, g);
     else
         sketch_separate_3d(i, j, r, g);
-    if (sheared) {
+    if (sheared && __builtin_expect(some_across(r[1], sieve->half_edge[1]), 0)) {
         g[0] = wides_lean(g[0], r[1], sieve->half_edge[1], sieve->offset_then);
         r[0] = wides_lean(r[0], r[1], sieve->half_edge[1], sieve->offset);
     }
