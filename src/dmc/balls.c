@@ -342,13 +342,25 @@ static Status run(Chain *chain, int64_t trials, Tally *tally) {
         const int64_t most = TRIALS_PER_BLOCK - (int64_t)from;
         const size_t count = (size_t)(end - *step < most ? end - *step : most);
         if (block != balls->block) draw(balls, block);
-        if (!balls->kernel->run(balls, from, from + count, tally->moves)) return NO_MEMORY;
-        *step += (int64_t)count;
+        const ChainPull *pull = balls->pulled ? &balls->pull : NULL;
+        if (pull_is_due(pull, *step, balls->count) &&
+            !balls_pull_trial(balls, *step, tally->moves)) {
+            return NO_MEMORY;
+        }
+        const size_t calm = pull_calm(pull, *step, balls->count, balls->who + from, ~STRAYS, count);
+        if (!balls->kernel->run(balls, from, from + calm, tally->moves)) return NO_MEMORY;
+        *step += (int64_t)(calm > 0 ? calm : 1);
     }
     tally->rebuilds += balls->rebuilds;
     tally->corrected += balls->corrected;
     balls->rebuilds = balls->corrected = 0;
     return OK;
+}
+
+static void pull(Chain *chain, const ChainPull *given) {
+    Balls *balls = balls_of(chain);
+    balls->pulled = given != NULL;
+    if (given) balls->pull = *given;
 }
 
 static void publish(Chain *chain) {
@@ -371,6 +383,7 @@ const ChainKind chain_of_balls = {
     .check = check,
     .create = create,
     .set_amplitude = set_amplitude,
+    .pull = pull,
     .run = run,
     .publish = publish,
     .rescale = rescale,

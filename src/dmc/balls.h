@@ -101,6 +101,9 @@ struct Balls {
     double *normals[3];                             // [TRIALS_PER_BLOCK]
     uint32_t *ids;                                  // 0, 1, ...
     uint64_t rebuilds, corrected;
+
+    bool pulled; // a particle is, whose trials are those of `pull` (balls_pull.c)
+    ChainPull pull;
 };
 
 // The chain on a given instruction set, which the processor must have: for tests, benches.
@@ -114,6 +117,9 @@ bool balls_refresh(Balls *balls, uint32_t i);
 // Does anything overlap a particle at `place`? By cells, whatever the distance.
 bool balls_overlap_anywhere(const Balls *balls, uint32_t i, const uint32_t place[3]);
 int64_t balls_energy_anywhere(const Balls *balls, uint32_t i, const uint32_t place[3]);
+
+// The pulled particle's trial before number `trial` of the chain; false: no memory.
+bool balls_pull_trial(Balls *balls, int64_t trial, MoveTally *moves);
 
 // Scaled coarse steps per longest edge: squares of any distance fit 31 bits.
 #define COARSE_PER_EDGE (0.75 * 0x1p16)

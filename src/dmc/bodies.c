@@ -68,7 +68,7 @@ static void load(Bodies *bodies) {
     }
 }
 
-static BodyRow row_of(const Bodies *bodies, size_t i) {
+BodyRow bodies_row(const Bodies *bodies, size_t i) {
     const Pose *pose = &bodies->pose[i];
     const Body *body = &bodies->body[i];
     BodyRow row = {.radius = (float)(body->diameter / 2), .core = (float)(body->length / 2)};
@@ -90,7 +90,7 @@ static void set_sizes(Bodies *bodies, double scale) {
         body.diameter = scale * state->diameter[i];
         body.length *= scale;
         bodies->body[i] = body;
-        bodies->row[i] = row_of(bodies, i);
+        bodies->row[i] = bodies_row(bodies, i);
         bodies->longest = fmax(bodies->longest, shape_reach(&body));
     }
 }
@@ -222,19 +222,43 @@ static Status renew_lists(Bodies *bodies) {
                          : OK;
 }
 
+static const ChainPull *pull_of(const Bodies *bodies) {
+    return bodies->pulled ? &bodies->pull : NULL;
+}
+
+// Lists that do not serve any more stop the trials after one that was made, so that none is at the
+// beginning of a cycle twice.
+static Status begin_cycle(Bodies *bodies, int64_t step, Tally *tally) {
+    if (!pull_is_due(pull_of(bodies), step, bodies->count)) return OK;
+    TRY(renew_lists(bodies));
+    bodies_pull_trial(bodies, step, tally->moves);
+    return OK;
+}
+
 static Status run(Chain *chain, int64_t trials, Tally *tally) {
     Bodies *bodies = (Bodies *)chain;
     int64_t *step = &bodies->state->step;
     const int64_t end = *step + trials;
     while (*step < end) {
+        TRY(begin_cycle(bodies, *step, tally));
         TRY(renew_lists(bodies));
         const int64_t block = *step / TRIALS, from = *step % TRIALS;
-        const int64_t to = end - block * TRIALS < TRIALS ? end - block * TRIALS : TRIALS;
+        const int64_t left = end - *step, most = TRIALS - from < left ? TRIALS - from : left;
         draw_block(bodies, block);
-        *step += (int64_t)bodies->kernel->try_moves(bodies, bodies->draws, (size_t)from, (size_t)to,
-                                                    tally);
+        const Draws *draws = bodies->draws;
+        const size_t calm = pull_calm(pull_of(bodies), *step, bodies->count, draws->body + from,
+                                      UINT32_MAX, (size_t)most);
+        const size_t made =
+            bodies->kernel->try_moves(bodies, draws, (size_t)from, (size_t)from + calm, tally);
+        *step += (int64_t)(calm > 0 ? made : 1);
     }
     return OK;
+}
+
+static void pull(Chain *chain, const ChainPull *given) {
+    Bodies *bodies = (Bodies *)chain;
+    bodies->pulled = given != NULL;
+    if (given) bodies->pull = *given;
 }
 
 // Sizes
@@ -315,6 +339,7 @@ const ChainKind chain_of_bodies = {
     .check = check,
     .create = create,
     .set_amplitude = set_amplitude,
+    .pull = pull,
     .run = run,
     .publish = publish,
     .rescale = rescale,

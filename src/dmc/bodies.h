@@ -100,6 +100,8 @@ struct Bodies {
     bool stale; // lists do not serve: one is too short, or they are for other steps
     Draws *draws;
     int64_t drawn; // block; -1: none
+    bool pulled;   // a particle is, whose trials are those of `pull` (bodies_pull.c)
+    ChainPull pull;
 };
 
 // Becomes: extern const BodiesKernel bodies_kernels_portable[2][2], ...
@@ -124,6 +126,10 @@ static inline bool bodies_pair_overlaps(const Bodies *bodies, size_t i, const Po
     return forward ? overlap_of(&body[i], of_i->axis, &body[j], of_j->axis, r)
                    : overlap_of(&body[j], of_j->axis, &body[i], of_i->axis, r);
 }
+
+// The pulled particle's trial before number `trial` of the chain.
+void bodies_pull_trial(Bodies *bodies, int64_t trial, MoveTally *moves);
+BodyRow bodies_row(const Bodies *bodies, size_t i); // where it is
 
 Status bodies_lists_create(Bodies *bodies);
 void bodies_lists_free(Bodies *bodies);

@@ -22,6 +22,10 @@ void chain_set_amplitude(Chain *chain, size_t species, const Amplitude *amplitud
     chain->kind->set_amplitude(chain, species, amplitude);
 }
 
+void chain_pull(Chain *chain, const ChainPull *pull) {
+    chain->kind->pull(chain, pull);
+}
+
 Status chain_run(Chain *chain, int64_t trials, Tally *tally) {
     return chain->kind->run(chain, trials, tally);
 }

@@ -8,6 +8,7 @@
 // with probability 1/2, and rotations depend on the angle alone.
 #pragma once
 
+#include "dmc/pull.h"
 #include "propagator/propagator.h"
 
 // What a proposal is like.
@@ -40,6 +41,7 @@ typedef struct ChainKind {
     Status (*check)(const System *system); // BAD_DATA with a sentence if it cannot
     Status (*create)(Chain **out, const ChainSettings *settings, State *state, RngKey key);
     void (*set_amplitude)(Chain *chain, size_t species, const Amplitude *amplitude);
+    void (*pull)(Chain *chain, const ChainPull *pull);
     Status (*run)(Chain *chain, int64_t trials, Tally *tally);
     void (*publish)(Chain *chain);
     bool (*rescale)(Chain *chain, double scale);
@@ -63,6 +65,10 @@ Status chain_check(const System *system);
 Status chain_create(Chain **out, const ChainSettings *settings, State *state, RngKey key);
 void chain_free(Chain *chain);
 void chain_set_amplitude(Chain *chain, size_t species, const Amplitude *amplitude);
+
+// From now on the trials of this particle, which has no body axis, are those of a pulled one; NULL:
+// of none.
+void chain_pull(Chain *chain, const ChainPull *pull);
 
 // Makes the trials state->step, state->step + 1, ...: trial number k is a pure function of (key,
 // stream, k) and the configuration. Counts go to tally->moves. run(a), run(b) gives the bits of

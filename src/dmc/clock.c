@@ -26,6 +26,8 @@ struct ChainClock {
     double free_cycle[SPECIES_MOST]; // of a free body, in d^2/D0
     int64_t trials;                  // since clock_restart
     bool calibrating;
+    bool pulled, rests;
+    ClockPull pull;
     double carried;                // fraction of a trial
     MoveTally moves[SPECIES_MOST]; // since clock_restart
     CycleSquares cycles[SPECIES_MOST];
@@ -61,6 +63,58 @@ size_t clock_memory(const System *system) {
            6 * sizeof(double) * (size_t)system->particles;
 }
 
+double clock_pull_work(const ChainClock *clock) {
+    return clock->pull.force * clock->step[clock->pull.species];
+}
+
+// Time of a free particle's trial under the force over that without one, for equal half-widths: the
+// exact mean displacement over D F.
+static double pull_pace(const ChainClock *clock) {
+    const double f = clock_pull_work(clock);
+    return clock->pull.kind == PULL_EXACT_FORCE && f > 0 ? 6 * pull_drift(f) / f : 1;
+}
+
+// Trials along the force are rejected more often than their time is short, so that those across it
+// would diffuse too fast by 1 + f/8: they are made so much shorter.
+static double across_over_along(const ChainClock *clock) {
+    if (clock->pull.kind != PULL_EXACT_FORCE) return 1;
+    return sqrt(pull_pace(clock) / pull_acceptance(clock_pull_work(clock)));
+}
+
+static void pull_chain(ChainClock *clock) {
+    const ClockPull *pull = &clock->pull;
+    if (!clock->pulled) {
+        chain_pull(clock->chain, NULL);
+        return;
+    }
+    size_t particle = 0;
+    for (size_t s = 0; s < pull->species; s++) particle += clock->counts[s];
+    const double along = clock->step[pull->species];
+    chain_pull(clock->chain, &(ChainPull){.particle = particle,
+                                          .axis = pull->axis,
+                                          .force = clock->rests ? 0 : pull->force,
+                                          .drifted = pull->kind == PULL_DRIFTED,
+                                          .along = along,
+                                          .across = along * across_over_along(clock)});
+}
+
+void clock_pull(ChainClock *clock, const ClockPull *pull) {
+    clock->pulled = pull != NULL;
+    clock->rests = false;
+    if (pull) clock->pull = *pull;
+    pull_chain(clock);
+}
+
+void clock_pull_rests(ChainClock *clock, bool rests) {
+    if (rests == clock->rests) return;
+    clock->rests = rests;
+    pull_chain(clock);
+}
+
+static bool is_pulled(const ChainClock *clock, size_t species) {
+    return clock->pulled && species == clock->pull.species;
+}
+
 void clock_set_step(ChainClock *clock, size_t species, double parallel) {
     const System *system = &clock->state->system;
     const Diffusion diffusion = species_diffusion(&system->species[species]);
@@ -71,6 +125,7 @@ void clock_set_step(ChainClock *clock, size_t species, double parallel) {
     clock->free_cycle[species] =
         parallel * parallel / (6 * diffusion.parallel) * system_reference_diffusion(system);
     chain_set_amplitude(clock->chain, species, &amplitude);
+    if (is_pulled(clock, species)) pull_chain(clock);
 }
 
 double clock_step(const ChainClock *clock, size_t species) {
@@ -244,9 +299,21 @@ static double free_whole(const ChainClock *clock, size_t species) {
                                                          : along / one->parallel;
 }
 
+// [GD] eq. 19 with the acceptance as it is counted, that of bath and force together; else what the
+// bath accepts, times the time of a free particle's trial.
+static double pulled_cycle(const ChainClock *clock) {
+    const size_t species = clock->pull.species;
+    const MoveTally *moves = &clock->moves[species];
+    const double share = clock->pull.kind == PULL_FIRST_ORDER
+                             ? (3 * clock_acceptance(clock, species) - 1) / 2
+                             : (double)moves->unhindered / (double)moves->trials;
+    return clock->free_cycle[species] * share * pull_pace(clock);
+}
+
 double clock_cycle_of(const ChainClock *clock, size_t species) {
     const MoveTally *moves = &clock->moves[species];
     if (moves->trials == 0) return clock->free_cycle[species];
+    if (is_pulled(clock, species)) return pulled_cycle(clock);
     if (clock->settings.kind == CLOCK_ACCEPTANCE)
         return clock->free_cycle[species] * clock_acceptance(clock, species);
     const MoveSquares squares = {moves->parallel, moves->perpendicular, moves->rotational};
@@ -261,11 +328,13 @@ double clock_cycle_of(const ChainClock *clock, size_t species) {
 }
 
 double clock_cycle(const ChainClock *clock) {
-    double sum = 0;
+    double sum = 0, particles = 0;
     for (size_t s = 0; s < clock->species_count; s++) {
+        if (is_pulled(clock, s)) continue; // its steps follow the others' time
         sum += (double)clock->counts[s] * clock_cycle_of(clock, s);
+        particles += (double)clock->counts[s];
     }
-    return sum / (double)clock->state->count;
+    return sum / particles;
 }
 
 Status clock_advance(ChainClock *clock, double time, Tally *tally) {

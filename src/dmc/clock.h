@@ -8,6 +8,7 @@
 #pragma once
 
 #include "dmc/amplitude.h"
+#include "propagator/drive.h"
 
 #include <stdbool.h>
 
@@ -31,6 +32,15 @@ typedef struct ClockSettings {
     MatchedSpan span;
 } ClockSettings;
 
+// A force on the only particle of a species. The time of its trials is of its own kind: it goes by
+// acceptance, and by the force.
+typedef struct ClockPull {
+    size_t species;
+    int axis;
+    double force; // in kT/d
+    PullClock kind;
+} ClockPull;
+
 // Runs a chain and keeps its time.
 typedef struct ChainClock ChainClock;
 
@@ -41,6 +51,11 @@ void clock_free(ChainClock *clock);
 // Amplitudes of a species from that along its axis.
 void clock_set_step(ChainClock *clock, size_t species, double parallel);
 double clock_step(const ChainClock *clock, size_t species);
+
+// Pulls from now on; NULL: no more. Where it rests the trials stay what they are, without force.
+void clock_pull(ChainClock *clock, const ClockPull *pull);
+void clock_pull_rests(ChainClock *clock, bool rests);
+double clock_pull_work(const ChainClock *clock); // f: force times half-width of a trial, in kT
 
 // Begins to count afresh.
 void clock_restart(ChainClock *clock);
@@ -57,7 +72,7 @@ double clock_acceptance(const ChainClock *clock, size_t species); // NaN before 
 uint64_t clock_trials(const ChainClock *clock, size_t species);
 double clock_cycle_of(const ChainClock *clock, size_t species); // a cycle, in d^2/D0, by what
                                                                 // this species does
-double clock_cycle(const ChainClock *clock);                    // mean over particles
+double clock_cycle(const ChainClock *clock); // mean over particles, but for a pulled one
 
 // Runs trials worth `time`, in d^2/D0, by the measurement so far; what is left of a trial is
 // carried to the next call.

@@ -9,10 +9,13 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double ACCEPTANCE_FLOOR = 0.05; // below it, trials say little about diffusion
 static const int ADJUSTMENTS = 20;           // of the amplitudes of a mixture, in the calibration
-static const double CLOCKS_APART = 0.1;      // at most, of two species after the calibration
+static const int64_t ROUND = 500; // cycles between adjustments of a pulled tracer, as [GD]
+static const int ROUNDS_LEAST = 4;
+static const double CLOCKS_APART = 0.1; // at most, of two species after the calibration
 
 typedef struct Dynamic {
     double step;
@@ -95,6 +98,10 @@ typedef struct DynamicPropagator {
     Dynamic set;
     double tick; // in d^2/D0
     ChainClock *clock;
+    bool pulled;
+    size_t tracer;        // species
+    int64_t period, pull; // ticks of a trajectory's period, and from its start with the force
+    int64_t ticks;        // done
 } DynamicPropagator;
 
 static const Dynamic *dynamic(const Settings *settings) {
@@ -245,6 +252,111 @@ static Status create(Propagator **out, const Settings *settings, State *state, R
     return OK;
 }
 
+// Pulling.
+
+// Index of the tracer's species; species_count if there is none.
+static size_t tracer_species(const Pull *pull, const System *system) {
+    size_t s = 0;
+    while (s < system->species_count && strcmp(system->species[s].name, pull->species) != 0) s++;
+    return s;
+}
+
+static Status check_tracer(const Pull *pull, const System *system) {
+    const size_t s = tracer_species(pull, system);
+    size_t counts[SPECIES_MOST];
+    system_counts(system, counts);
+    if (s == system->species_count)
+        return status_fail(BAD_DATA, "pull = {species: %s}: there is no such species in the system",
+                           pull->species);
+    if (counts[s] != 1)
+        return status_fail(
+            BAD_DATA,
+            "pull = {species: %s}: these are %zu particles, and the force is on one, "
+            "the tracer; make it a species of its own with a fraction of %.6g",
+            pull->species, counts[s], 1 / (double)system->particles);
+    if (s == 0)
+        return status_fail(BAD_DATA,
+                           "pull = {species: %s}: steps and times go by the first species, which "
+                           "must be one of the bath; name the tracer after it",
+                           pull->species);
+    if (shape_is_oriented((ShapeKind)system->species[s].shape))
+        return status_fail(BAD_DATA, "pull = {species: %s}: a %s has a body axis; pull a sphere",
+                           pull->species, shape_names[system->species[s].shape]);
+    if (pull->axis < system->dimension) return OK;
+    return status_fail(BAD_DATA, "pull = {axis: z}: the system has two dimensions; use x or y");
+}
+
+// How far a trial may go under the force, by the tracer's step as it is where all accept alike.
+static Status check_pull_step(const Dynamic *set, const Pull *pull, const System *system) {
+    static const double FIRST_ORDER_MOST = 0.3, WORK_MOST = 5, DRIFT_MOST = 0.2; // f, f, d
+    const size_t s = tracer_species(pull, system);
+    const Species *tracer = &system->species[s];
+    const double step = first_step(set, system, s), force = pull_force(pull, tracer->diameter);
+    const double f = force * step, drift = f * step / 6 / tracer->diameter;
+    if (pull->clock == PULL_FIRST_ORDER && f > FIRST_ORDER_MOST)
+        return status_fail(BAD_DATA,
+                           "pull = {clock: first-order}: at step = %g the work of a trial is up to "
+                           "%.3g kT, above %g, where the first order does not hold; take a step "
+                           "below %.2g, or clock: drifted",
+                           set->step, f, FIRST_ORDER_MOST, set->step * FIRST_ORDER_MOST / f);
+    if (pull->clock == PULL_EXACT_FORCE && f > WORK_MOST)
+        return status_fail(BAD_DATA,
+                           "pull = {clock: exact-force}: at step = %g the work of a trial is up to "
+                           "%.3g kT, above %g, so that hardly any goes back; take a step below "
+                           "%.2g, or clock: drifted",
+                           set->step, f, WORK_MOST, set->step * WORK_MOST / f);
+    if (pull->clock != PULL_DRIFTED || drift <= DRIFT_MOST) return OK;
+    return status_fail(
+        BAD_DATA,
+        "pull = {peclet: %g}: at step = %g the tracer drifts by %.3g of its diameter "
+        "in a trial, above %g; take a step below %.2g",
+        pull->peclet, set->step, drift, DRIFT_MOST, set->step * sqrt(DRIFT_MOST / drift));
+}
+
+// The tracer goes 3/4 of the edge, and what it has left behind must have closed in the rest.
+static Status check_pull_box(const Pull *pull, const System *system) {
+    static const double STRONG = 1, EDGE_LEAST = 12; // Peclet number; in tracer diameters
+    const Box box = system_box(system);
+    const double diameter = system->species[tracer_species(pull, system)].diameter;
+    const double edge = box.edge[pull->axis];
+    if (pull->peclet < STRONG || edge >= EDGE_LEAST * diameter) return OK;
+    return status_fail(BAD_DATA,
+                       "pull = {peclet: %g}: the box is %.3g d long along %s, so that the tracer "
+                       "would meet its own wake; make it at least %.3g d long, with more particles "
+                       "or an aspect such as [2, 1, 1]",
+                       pull->peclet, edge, pull_axes[pull->axis], EDGE_LEAST * diameter);
+}
+
+static Status check_drive(const Settings *settings, const System *system, const Drive *drive) {
+    const Dynamic *set = dynamic(settings);
+    const Pull *pull = &drive->pull;
+    TRY(check_tracer(pull, system));
+    if (set->clock != CLOCK_ACCEPTANCE)
+        return status_fail(
+            BAD_DATA,
+            "pull = {species: %s}: the tracer's time goes by acceptance, and so must "
+            "the bath's; use clock: acceptance-rescaling in dynamics",
+            pull->species);
+    TRY(check_pull_step(set, pull, system));
+    return check_pull_box(pull, system);
+}
+
+static Status drive(Propagator *propagator, const Drive *drive, int64_t steps) {
+    DynamicPropagator *made = own(propagator);
+    const Pull *pull = &drive->pull;
+    const System *system = &made->state->system;
+    made->pulled = true;
+    made->tracer = tracer_species(pull, system);
+    made->ticks = steps;
+    pull_ticks(pull, made->tick, &made->period, &made->pull);
+    clock_pull(made->clock,
+               &(ClockPull){.species = made->tracer,
+                            .axis = (int)pull->axis,
+                            .force = pull_force(pull, system->species[made->tracer].diameter),
+                            .kind = (PullClock)pull->clock});
+    return OK;
+}
+
 // Where a species is slower than the first, longer steps; its acceptance falls with them, so that
 // the square root converges from one side. `share` of that is taken, less and less, so that the
 // noise of all adjustments averages out.
@@ -293,6 +405,22 @@ static Status check_one_clock(const DynamicPropagator *made) {
     return OK;
 }
 
+static bool is_tracer(const DynamicPropagator *made, size_t species) {
+    return made->pulled && species == made->tracer;
+}
+
+// The tracer's step, every so many cycles, until its clock is the bath's; then it is frozen.
+static Status settle_tracer(DynamicPropagator *made) {
+    const int64_t trials = ROUND * (int64_t)made->state->count;
+    const int rounds = (int)fmax(ROUNDS_LEAST, (double)(made->set.calibration / ROUND));
+    for (int k = 0; k < rounds; k++) {
+        clock_restart(made->clock);
+        TRY(clock_run(made->clock, trials, NULL));
+        TRY(adjust(made, made->tracer, 2.0 / (k + 2)));
+    }
+    return OK;
+}
+
 static Status prepare(Propagator *propagator) {
     DynamicPropagator *made = own(propagator);
     const int64_t count = (int64_t)made->state->count, half = made->set.calibration / 2 * count;
@@ -300,9 +428,11 @@ static Status prepare(Propagator *propagator) {
     for (int k = 0; k < ADJUSTMENTS; k++) {
         clock_restart(made->clock);
         TRY(clock_run(made->clock, half / ADJUSTMENTS, NULL));
-        for (size_t s = 1; s < made->state->system.species_count; s++)
-            TRY(adjust(made, s, 2.0 / (k + 2)));
+        for (size_t s = 1; s < made->state->system.species_count; s++) {
+            if (!is_tracer(made, s)) TRY(adjust(made, s, 2.0 / (k + 2)));
+        }
     }
+    if (made->pulled) TRY(settle_tracer(made));
     clock_restart(made->clock);
     TRY(clock_run(made->clock, half, NULL));
     clock_calibrate(made->clock, false);
@@ -313,7 +443,10 @@ static Status prepare(Propagator *propagator) {
 
 static Status advance(Propagator *propagator, int64_t ticks, Tally *tally) {
     DynamicPropagator *made = own(propagator);
-    for (int64_t t = 0; t < ticks; t++) TRY(clock_advance(made->clock, made->tick, tally));
+    for (int64_t t = 0; t < ticks; t++, made->ticks++) {
+        if (made->pulled) clock_pull_rests(made->clock, made->ticks % made->period >= made->pull);
+        TRY(clock_advance(made->clock, made->tick, tally));
+    }
     clock_publish(made->clock);
     return check_running(made);
 }
@@ -330,13 +463,16 @@ const PropagatorKind propagator_dynamic_monte_carlo = {
     .time_meaning = "D0 is the free diffusion coefficient of the first species, averaged over "
                     "directions.",
     .options = {rows, sizeof rows / sizeof *rows, sizeof(Dynamic)},
+    .drives = DRIVE_PULL,
     .check = check,
+    .check_drive = check_drive,
     .tick = tick,
     .ticks_per_step = one,
     .seconds_per_particle_tick = seconds,
     .memory = clock_memory,
     .describe = describe,
     .create = create,
+    .drive = drive,
     .prepare = prepare,
     .advance = advance,
     .archive = archive,

@@ -6,8 +6,12 @@
 #include "base/constants.h"
 #include "numerics/turn.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+
+const char *const pull_axes[] = {"x", "y", "z", NULL};
+const char *const pull_clocks[PULL_CLOCKS + 1] = {"drifted", "exact-force", "first-order", NULL};
 
 static const Option rows[] = {
     {.name = "shear_rate",
@@ -47,7 +51,50 @@ static const Option rows[] = {
      .unit = "D0/d^2",
      .about = "The shear rate at these times: straight lines between them, constant before the "
               "first and after the last."},
+    {.name = "pull.species",
+     .type = OPTION_TEXT,
+     .offset = offsetof(Drive, pull.species),
+     .unit = "",
+     .about = "Active microrheology: the species whose only particle, the tracer, is pulled by a "
+              "constant force."},
+    {.name = "pull.peclet",
+     .type = OPTION_REAL,
+     .offset = offsetof(Drive, pull.peclet),
+     .least = 0,
+     .most = 1e5,
+     .unit = "",
+     .about = "The force, as F a/kT with the tracer's radius a; 0: the tracer diffuses."},
+    {.name = "pull.axis",
+     .type = OPTION_CHOICE,
+     .offset = offsetof(Drive, pull.axis),
+     .unit = "",
+     .about = "The direction of the force.",
+     .choices = pull_axes},
+    {.name = "pull.clock",
+     .type = OPTION_CHOICE,
+     .offset = offsetof(Drive, pull.clock),
+     .unit = "",
+     .about = "Trials of the tracer and what they are worth in time: drifted ones, exact however "
+              "long; uniform ones with the exact mean of a free particle; the same to first order "
+              "in the force, as published.",
+     .choices = pull_clocks},
+    {.name = "pull.period",
+     .type = OPTION_REAL,
+     .offset = offsetof(Drive, pull.period),
+     .least = 0,
+     .most = 1e9,
+     .unit = "d^2/D0",
+     .about =
+         "Time from one trajectory of the tracer to the next; 0: the stage is one trajectory."},
+    {.name = "pull.rest",
+     .type = OPTION_REAL,
+     .offset = offsetof(Drive, pull.rest),
+     .least = 0,
+     .most = 1e9,
+     .unit = "d^2/D0",
+     .about = "The last part of each period, without the force, in which the bath forgets."},
 };
+
 const OptionTable drive_options = {rows, sizeof rows / sizeof *rows, sizeof(Drive)};
 
 static bool oscillates(const Flow *flow) {
@@ -60,7 +107,8 @@ static bool has_table(const Flow *flow) {
 
 unsigned drive_kinds(const Drive *drive) {
     const Flow *flow = &drive->flow;
-    return flow->rate != 0 || oscillates(flow) || has_table(flow) ? DRIVE_FLOW : 0;
+    const bool flows = flow->rate != 0 || oscillates(flow) || has_table(flow);
+    return (flows ? DRIVE_FLOW : 0) | (drive->pull.species[0] ? DRIVE_PULL : 0);
 }
 
 const char *flow_words(char words[FLOW_WORDS_SIZE], const Flow *flow) {
@@ -86,8 +134,25 @@ static Status check_table(const OptionReals *times, const OptionReals *rates) {
     return OK;
 }
 
+static Status check_pull(const Pull *pull) {
+    if (pull->species[0] == '\0') {
+        if (pull->peclet == 0) return OK;
+        return status_fail(BAD_DATA,
+                           "pull = {peclet: %g}: give the species of the tracer as well, as in "
+                           "pull: {species: tracer, peclet: %g}",
+                           pull->peclet, pull->peclet);
+    }
+    if (pull->rest == 0 || pull->rest < pull->period) return OK;
+    return status_fail(
+        BAD_DATA,
+        "pull = {rest: %g}: a rest is the last part of a period; give a longer period "
+        "than it",
+        pull->rest);
+}
+
 Status drive_check(const Drive *drive) {
     const Flow *flow = &drive->flow;
+    TRY(check_pull(&drive->pull));
     if ((flow->rate != 0) + oscillates(flow) + has_table(flow) > 1)
         return status_fail(BAD_DATA, "%s: a stage has one of shear_rate, oscillate and shear_table",
                            flow_words((char[FLOW_WORDS_SIZE]){0}, flow));
@@ -95,6 +160,19 @@ Status drive_check(const Drive *drive) {
         return status_fail(BAD_DATA, "%s: both must be above 0",
                            flow_words((char[FLOW_WORDS_SIZE]){0}, flow));
     return check_table(&flow->table.times, &flow->table.rates);
+}
+
+void pull_ticks(const Pull *pull, double tick, int64_t *period, int64_t *on) {
+    *period = *on = INT64_MAX;
+    if (!(pull->period > 0)) return;
+    const double ticks = rint(pull->period / tick), rest = rint(pull->rest / tick);
+    if (ticks >= 0x1p62) return;
+    *period = ticks < 1 ? 1 : (int64_t)ticks;
+    *on = *period - (rest < ticks ? (int64_t)rest : 0);
+}
+
+double pull_force(const Pull *pull, double diameter) {
+    return pull->peclet / (diameter / 2);
 }
 
 // sin(angle), or its cosine.

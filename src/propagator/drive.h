@@ -21,12 +21,27 @@ typedef struct Flow {
     } table;
 } Flow;
 
+// How the time of a pulled particle's Monte Carlo trials is found (dmc/clock.h).
+typedef enum PullClock { PULL_DRIFTED, PULL_EXACT_FORCE, PULL_FIRST_ORDER, PULL_CLOCKS } PullClock;
+
+// A constant force on one particle, the tracer, all others being free (active microrheology).
+typedef struct Pull {
+    char species[OPTION_TEXT_SIZE]; // of which the tracer is the only particle; "": none is pulled
+    double peclet;                  // force times the tracer's radius over kT
+    int64_t axis;                   // 0, 1, 2
+    int64_t clock;                  // PullClock
+    double period, rest; // in d^2/D0: a trajectory begins every period, and ends `rest` before the
+                         // next with the force switched off; 0: one trajectory
+} Pull;
+
 typedef struct Drive {
     Flow flow;
+    Pull pull;
 } Drive;
 
 typedef enum DriveKind {
     DRIVE_FLOW = 1 << 0,
+    DRIVE_PULL = 1 << 1,
 } DriveKind;
 
 extern const OptionTable drive_options; // keys of a stage, of a Drive
@@ -39,6 +54,13 @@ Status drive_check(const Drive *drive);
 enum { FLOW_WORDS_SIZE = 96 };
 // As in the run file, for sentences: "shear_rate = 0.02".
 const char *flow_words(char words[FLOW_WORDS_SIZE], const Flow *flow);
+
+extern const char *const pull_axes[], *const pull_clocks[]; // words of the run file, NULL-ended
+
+// Ticks of a trajectory's period, and of its first part, in which the force is on: INT64_MAX where
+// there is one trajectory.
+void pull_ticks(const Pull *pull, double tick, int64_t *period, int64_t *on);
+double pull_force(const Pull *pull, double diameter); // of the tracer: in kT/d
 
 // Mean rate from one time of the stage to another, in d^2/D0: what the flow is kept at in between.
 double flow_rate(const Flow *flow, double from, double to);

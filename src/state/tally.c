@@ -13,6 +13,7 @@ void tally_archive_moves(MoveTally *moves, Archive *archive) {
     archive_f64(archive, &moves->free.parallel, 1);
     archive_f64(archive, &moves->free.perpendicular, 1);
     archive_f64(archive, &moves->free.rotational, 1);
+    archive_u64(archive, &moves->unhindered, 1);
 }
 
 void tally_add_moves(MoveTally *sum, const MoveTally *more) {
@@ -24,6 +25,7 @@ void tally_add_moves(MoveTally *sum, const MoveTally *more) {
     sum->free.parallel += more->free.parallel;
     sum->free.perpendicular += more->free.perpendicular;
     sum->free.rotational += more->free.rotational;
+    sum->unhindered += more->unhindered;
 }
 
 void tally_archive(Tally *tally, Archive *archive) {

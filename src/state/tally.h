@@ -20,6 +20,7 @@ typedef struct MoveTally {
     uint64_t trials, accepted;
     double parallel, perpendicular, rotational; // see MoveSquares
     MoveSquares free;
+    uint64_t unhindered; // of a pulled particle: accepted were it not for the force
 } MoveTally;
 
 typedef struct Tally {
