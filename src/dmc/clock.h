@@ -8,7 +8,7 @@
 #pragma once
 
 #include "dmc/amplitude.h"
-#include "propagator/drive.h"
+#include "propagator/propagator.h"
 
 #include <stdbool.h>
 
