@@ -151,7 +151,6 @@ static const struct {
     const char *word;
     const char *sentence;
 } hints[] = {
-    {"pull", "this version pulls no particle; its stages are at rest"},
     {"schematic", "this version has no schematic models; theory has the equations for discs and "
                   "spheres"},
     {"closure", "where the theory takes its structure from is called structure"},
