@@ -291,7 +291,8 @@ static Status check_pull_step(const Dynamic *set, const Pull *pull, const System
     static const double FIRST_ORDER_MOST = 0.3, WORK_MOST = 5, DRIFT_MOST = 0.2; // f, f, d
     const size_t s = tracer_species(pull, system);
     const Species *tracer = &system->species[s];
-    const double step = first_step(set, system, s), force = pull_force(pull, tracer->diameter);
+    const double step = first_step(set, system, s),
+                 force = drive_pull_force(pull, tracer->diameter);
     const double f = force * step, drift = f * step / 6 / tracer->diameter;
     if (pull->clock == PULL_FIRST_ORDER && f > FIRST_ORDER_MOST)
         return status_fail(BAD_DATA,
@@ -324,7 +325,7 @@ static Status check_pull_box(const Pull *pull, const System *system) {
                        "pull = {peclet: %g}: the box is %.3g d long along %s, so that the tracer "
                        "would meet its own wake; make it at least %.3g d long, with more particles "
                        "or an aspect such as [2, 1, 1]",
-                       pull->peclet, edge, pull_axes[pull->axis], EDGE_LEAST * diameter);
+                       pull->peclet, edge, drive_pull_axes[pull->axis], EDGE_LEAST * diameter);
 }
 
 static Status check_drive(const Settings *settings, const System *system, const Drive *drive) {
@@ -348,11 +349,11 @@ static Status drive(Propagator *propagator, const Drive *drive, int64_t steps) {
     made->pulled = true;
     made->tracer = tracer_species(pull, system);
     made->ticks = steps;
-    pull_ticks(pull, made->tick, &made->period, &made->pull);
+    drive_pull_ticks(pull, made->tick, &made->period, &made->pull);
     clock_pull(made->clock,
                &(ClockPull){.species = made->tracer,
                             .axis = (int)pull->axis,
-                            .force = pull_force(pull, system->species[made->tracer].diameter),
+                            .force = drive_pull_force(pull, system->species[made->tracer].diameter),
                             .kind = (PullClock)pull->clock});
     return OK;
 }

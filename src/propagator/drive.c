@@ -10,8 +10,9 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-const char *const pull_axes[] = {"x", "y", "z", NULL};
-const char *const pull_clocks[PULL_CLOCKS + 1] = {"drifted", "exact-force", "first-order", NULL};
+const char *const drive_pull_axes[] = {"x", "y", "z", NULL};
+const char *const drive_pull_clocks[PULL_CLOCKS + 1] = {"drifted", "exact-force", "first-order",
+                                                        NULL};
 
 static const Option rows[] = {
     {.name = "shear_rate",
@@ -69,7 +70,7 @@ static const Option rows[] = {
      .offset = offsetof(Drive, pull.axis),
      .unit = "",
      .about = "The direction of the force.",
-     .choices = pull_axes},
+     .choices = drive_pull_axes},
     {.name = "pull.clock",
      .type = OPTION_CHOICE,
      .offset = offsetof(Drive, pull.clock),
@@ -77,7 +78,7 @@ static const Option rows[] = {
      .about = "Trials of the tracer and what they are worth in time: drifted ones, exact however "
               "long; uniform ones with the exact mean of a free particle; the same to first order "
               "in the force, as published.",
-     .choices = pull_clocks},
+     .choices = drive_pull_clocks},
     {.name = "pull.period",
      .type = OPTION_REAL,
      .offset = offsetof(Drive, pull.period),
@@ -162,7 +163,7 @@ Status drive_check(const Drive *drive) {
     return check_table(&flow->table.times, &flow->table.rates);
 }
 
-void pull_ticks(const Pull *pull, double tick, int64_t *period, int64_t *on) {
+void drive_pull_ticks(const Pull *pull, double tick, int64_t *period, int64_t *on) {
     *period = *on = INT64_MAX;
     if (!(pull->period > 0)) return;
     const double ticks = rint(pull->period / tick), rest = rint(pull->rest / tick);
@@ -171,7 +172,7 @@ void pull_ticks(const Pull *pull, double tick, int64_t *period, int64_t *on) {
     *on = *period - (rest < ticks ? (int64_t)rest : 0);
 }
 
-double pull_force(const Pull *pull, double diameter) {
+double drive_pull_force(const Pull *pull, double diameter) {
     return pull->peclet / (diameter / 2);
 }
 

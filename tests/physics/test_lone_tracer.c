@@ -128,7 +128,7 @@ START_TEST(a_lone_tracer_moves_as_its_trials_say) {
     const double along =
         kind == PULL_DRIFTED ? 1 : 3 * (free.square - free.mean * free.mean) / pace;
     const double across = kind == PULL_FIRST_ORDER ? free.acceptance / pace : 1;
-    printf("%s f %g %s:", pull_clocks[kind], f, bodies ? "rods" : "balls");
+    printf("%s f %g %s:", drive_pull_clocks[kind], f, bodies ? "rods" : "balls");
     check_found("drift", found.drift, found.drift_error * drift, drift);
     check_found("along", found.along, found.along_error * along, along);
     check_found("across", found.across, found.across_error * across, across);
