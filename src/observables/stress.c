@@ -148,23 +148,35 @@ static double mean_of(const Stress *self, size_t stress, size_t begin, size_t en
     return sum / windows;
 }
 
-// Windows are put together into this many stretches, long enough not to know of each other.
+// Windows are put together into stretches; those of twice the length tell of correlations that
+// reach from one to the next. A flow makes configurations anew over strains of the order of one, so
+// that less than STRAIN_LEAST, however many its windows are, tells nothing.
 enum { STRETCHES = 16 };
+static const double STRAIN_LEAST = 2;
 
-static double relative_error(const Observer *observer) {
-    const Stress *self = (const Stress *)observer;
-    if (self->done <= self->first || (self->done - self->first) % STRETCHES != 0) return INFINITY;
-    const size_t length = (self->done - self->first) / STRETCHES;
+// Standard error of the shear stress from so many stretches.
+static double error_from(const Stress *self, size_t stretches) {
+    const size_t length = (self->done - self->first) / stretches;
     double sum = 0, squares = 0;
-    for (size_t k = 0; k < STRETCHES; k++) {
+    for (size_t k = 0; k < stretches; k++) {
         const size_t begin = self->first + k * length;
         const double mean = mean_of(self, 0, begin, begin + length);
         sum += mean;
         squares += mean * mean;
     }
-    const double mean = sum / STRETCHES;
-    const double variance = fmax(squares / STRETCHES - mean * mean, 0) / (STRETCHES - 1);
-    return sqrt(variance) / fabs(mean);
+    const double count = (double)stretches, mean = sum / count;
+    return sqrt(fmax(squares / count - mean * mean, 0) / (count - 1));
+}
+
+static double relative_error(const Observer *observer) {
+    const Stress *self = (const Stress *)observer;
+    if (self->done <= self->first || (self->done - self->first) % STRETCHES != 0) return INFINITY;
+    const double windows = (double)(self->done - self->first);
+    if (windows * (double)self->period * advance_of(&observer->clock) < STRAIN_LEAST) {
+        return INFINITY;
+    }
+    const double error = fmax(error_from(self, STRETCHES), error_from(self, STRETCHES / 2));
+    return error / fabs(mean_of(self, 0, self->first, self->done));
 }
 
 static double stage_mean(const Stress *self, size_t stress) {

@@ -24,7 +24,8 @@ static const Option until_rows[] = {
      "Standard error of the shear stress over its mean at which the stage ends: it observes "
      "stress, "
      "and its time or strain is the limit. Each replica ends by itself, at an error larger by the "
-     "root of the number of replicas; it looks every sixteenth window of stress. 0: no such end."},
+     "root of the number of replicas; it looks every sixteenth window of stress, from an averaged "
+     "strain of 2 on. 0: no such end."},
 };
 const OptionTable stage_until_options = {until_rows, sizeof until_rows / sizeof *until_rows,
                                          sizeof(Stage)};
