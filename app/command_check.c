@@ -61,16 +61,15 @@ static Status print_stage(const Plan *plan, size_t index) {
     const Stage *stage = &plan->stages[index];
     const Clock clock = plan_clock(plan, index);
     const double steps = (double)(clock.ticks / clock.ticks_per_step);
-    printf("stage     %-16s %s, %.6g %s in %.0f steps of %.6g\n", stage->name,
+    printf("stage     %-16s %s, %.6g %s in %.0f steps of %.6g", stage->name,
            stage->dynamics.kind->name, stage_time(stage), clock.unit, steps,
            clock.tick * (double)clock.ticks_per_step);
+    if (stage->strain > 0) printf(", to a strain of %.6g", stage->strain);
+    printf("\n");
     if (drive_kinds(&stage->drive) & DRIVE_FLOW)
         printf("          %-16s %s\n", "  driven by",
                flow_words((char[FLOW_WORDS_SIZE]){0}, &stage->drive.flow));
     TRY(print_method(plan, stage));
-    char flow[FLOW_WORDS_SIZE];
-    if (drive_kinds(&stage->drive) & DRIVE_FLOW)
-        printf("          %-16s %s\n", "  flows", flow_words(flow, &stage->drive.flow));
     if (stage->observation_count == 0) printf("          %-16s nothing\n", "  observes");
     for (size_t k = 0; k < stage->observation_count; k++) {
         printf("          %-16s %s\n", k == 0 ? "  observes" : "",

@@ -9,9 +9,12 @@ trap 'rm -rf "$work"' EXIT
 
 "$perrin" check "$example/run.yaml" >"$work/check"
 
+# stage     sheared          event-driven, 3 d^2/D0 in 60000 steps of 5e-05, to a strain of 3
 # stage     settle           newtonian, 200 d sqrt(m/kT) in 20000 steps of 0.01
 set --
-for setting in $(awk '$1 == "stage" { printf "protocol.%s.time=%.6g\n", $2, $4 / 4 }' "$work/check"); do
+for setting in $(awk '$1 == "stage" {
+    if (/to a strain of/) printf "protocol.%s.strain=%.6g\n", $2, $NF / 4
+    else printf "protocol.%s.time=%.6g\n", $2, $4 / 4 }' "$work/check"); do
     set -- "$@" --set "$setting"
 done
 if [ $# -gt 0 ]; then set -- "$@" --set ensemble.replicas=2; fi # a theory has none
