@@ -203,11 +203,13 @@ static Status put_flow(const Itt *itt, Results *results) {
         "what the integral for the stress still grew by per unit of ln t at the "
         "end, over the stress",
         UNFINISHED, fabs(flow_modulus(itt->flow) * transient_strain(itt->transient) / stress)));
-    if (itt->overshoot == 0) return OK;
+    const bool passed = itt->overshoot > 0;
     TRY(record_put_number(results, "largest_stress", "kT/d^2",
-                          "Maximum of the stress after the start of shear.", itt->overshoot));
+                          "Maximum of the stress after the start of shear, if it has passed one.",
+                          passed ? itt->overshoot : NAN));
     return record_put_number(results, "strain_at_largest_stress", "",
-                             "Strain at the maximum of the stress.", itt->strain_at_overshoot);
+                             "Strain at the maximum of the stress.",
+                             passed ? itt->strain_at_overshoot : NAN);
 }
 
 // dy^2 has grown like the time over the last two that are kept.
