@@ -2,8 +2,8 @@
 // The end of a scattering function's decay: its relaxation time, where it has fallen to 1/e, and
 // Kohlrausch's law A exp(-(t/tau)^beta). The law holds of the last decay only, so that it is fitted
 // from a beginning that is scanned: the exponent of every beginning is given, and chosen is that
-// around which, half a decade to both sides, it changes least. The errors are the
-// jackknife's over replicas, with the same window for all.
+// around which, half a decade to both sides, it changes least, behind the plateau if there is one
+// (factorisation.c). The errors are the jackknife's over replicas, with the same window for all.
 #include "analysis/decay.h"
 #include "analysis/derive.h"
 #include "base/memory.h"
@@ -93,6 +93,7 @@ typedef struct Row {
     size_t first;     // element at the first lag
     Curve curve;      // its window is the one that was chosen
     double *mean;     // [lags], of all replicas or of those without one
+    double plateau;   // the time when it is passed; NaN if that is not known
     double *exponent; // [lags], of the law that begins there; NaN where none may
 } Row;
 
@@ -106,9 +107,19 @@ static size_t end_of(const Curve *curve) {
     return end;
 }
 
-static bool may_begin(const Curve *curve, size_t k) {
+// Of what there is to decay: of the plateau, where that is known.
+static bool may_begin(const Row *row, size_t k) {
+    const Curve *curve = &row->curve;
     const double share = curve->values[k] / curve->values[0];
-    return share < BEGINS_BELOW && share > BEGINS_ABOVE && curve->times[k] > 0;
+    const double height =
+        decay_value_at(curve->times, curve->values, curve->lags, row->plateau) / curve->values[0];
+    const double least = BEGINS_ABOVE * (isnan(height) ? 1 : height);
+    return share < BEGINS_BELOW && share > least && curve->times[k] > 0;
+}
+
+// The law is chosen among those that begin behind the plateau.
+static bool is_candidate(const Row *row, size_t k) {
+    return !isnan(row->exponent[k]) && !(row->curve.times[k] < row->plateau);
 }
 
 // Of every beginning that there may be.
@@ -117,7 +128,7 @@ static void scan(Row *row) {
     curve.end = end_of(&curve);
     for (size_t k = 0; k < curve.lags; k++) {
         curve.begin = k;
-        row->exponent[k] = may_begin(&curve, k) ? fit(curve).number[EXPONENT] : (double)NAN;
+        row->exponent[k] = may_begin(row, k) ? fit(curve).number[EXPONENT] : (double)NAN;
     }
 }
 
@@ -127,7 +138,7 @@ static double unsteadiness(const Row *row, size_t at) {
     double least = INFINITY, most = -INFINITY;
     size_t count = 0;
     for (size_t k = 0; k < row->curve.lags; k++) {
-        if (isnan(row->exponent[k]) || times[k] < times[at] / HALF_DECADE ||
+        if (!is_candidate(row, k) || times[k] < times[at] / HALF_DECADE ||
             times[k] > times[at] * HALF_DECADE)
             continue;
         least = fmin(least, row->exponent[k]);
@@ -142,7 +153,7 @@ static void choose_window(Row *row) {
     row->curve.begin = row->curve.lags; // none
     row->curve.end = end_of(&row->curve);
     for (size_t k = 0; k < row->curve.lags; k++) {
-        if (isnan(row->exponent[k])) continue;
+        if (!is_candidate(row, k)) continue;
         const double spread = unsteadiness(row, k);
         if (spread < best || row->curve.begin == row->curve.lags) {
             best = spread;
@@ -214,11 +225,22 @@ static Status put_scan(Results *results, const ResultSeries *of, const double *e
     return results_put_series(results, &shape, 0, exponents);
 }
 
+// Of a row, as derive_factorisation found it for all wave numbers.
+static double plateau_of(const Results *results, const ResultSeries *of, size_t row) {
+    char name[RESULT_NAME];
+    snprintf(name, sizeof name, "%.40s_factorisation_window", of->observable);
+    const ResultSeries *window = results_find_series(results, of->stage, name);
+    if (!window) return NAN;
+    const size_t waves = of->axis[of->axes - 2].count, borders = 3, middle = 1;
+    return results_series_estimate(results, window, row / waves * borders + middle).value;
+}
+
 static Status derive_rows(Results *results, const ResultSeries *series, Row *row, double *values,
                           double *exponents) {
     const size_t rows = series->size / row->curve.lags;
     for (size_t i = 0; i < rows; i++) {
         row->first = i * row->curve.lags;
+        row->plateau = plateau_of(results, series, i);
         row->exponent = exponents + row->first;
         derive_row(row, values, i, rows);
     }

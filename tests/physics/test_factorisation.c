@@ -215,6 +215,7 @@ END_TEST
 int main(void) {
     Suite *suite = suite_create("factorisation");
     TCase *c = tcase_create("factorisation");
+    tcase_set_timeout(c, 60);
     tcase_add_test(c, what_factorises_is_one_curve);
     tcase_add_test(c, the_window_ends_where_the_functions_part);
     tcase_add_test(c, what_decays_at_once_has_no_plateau);

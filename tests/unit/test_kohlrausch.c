@@ -156,6 +156,7 @@ END_TEST
 int main(void) {
     Suite *suite = suite_create("kohlrausch");
     TCase *c = tcase_create("kohlrausch");
+    tcase_set_timeout(c, 60);
     tcase_add_test(c, kohlrausch_law_is_found_behind_the_plateau);
     tcase_add_test(c, a_free_particle_decays_exponentially);
     tcase_add_test(c, errors_are_those_of_the_replicas);
