@@ -67,6 +67,14 @@ static const struct {
     {"collective_scattering_normalised", .alone = derive_kohlrausch},
     {"collective_scattering_normalised", .alone = derive_scaled},
     {"collective_scattering_normalised", .alone = derive_shift},
+    {"self_scattering_centred", .alone = derive_factorisation},
+    {"self_scattering_centred", .alone = derive_kohlrausch},
+    {"self_scattering_centred", .alone = derive_scaled},
+    {"self_scattering_centred", .alone = derive_shift},
+    {"collective_scattering_centred", .alone = derive_factorisation},
+    {"collective_scattering_centred", .alone = derive_kohlrausch},
+    {"collective_scattering_centred", .alone = derive_scaled},
+    {"collective_scattering_centred", .alone = derive_shift},
     {"planar_structure_factor", .alone = derive_structure_change},
     {"structure_factor_cuts", .alone = derive_structure_change},
     {"quartic_displacement", .with = derive_non_gaussian},
@@ -92,5 +100,26 @@ static Status derive_from(Results *results, size_t index, const System *system) 
 
 Status analysis_derive(Results *results, const System *system) {
     for (size_t i = 0; i < results->series_count; i++) TRY(derive_from(results, i, system));
+    return OK;
+}
+
+static Status centre(Results *results, const System *system, const char *stage,
+                     const char *observable, const char *name) {
+    const ResultSeries *scattering = results_find_series(results, stage, observable);
+    if (!scattering || scattering->axes < 2) return OK;
+    const size_t added = results->series_count;
+    TRY(derive_centred(results, scattering, name, centre_diffusion(system)));
+    return added < results->series_count ? derive_from(results, added, system) : OK;
+}
+
+Status analysis_centre(Results *results, const Plan *plan) {
+    for (size_t s = 0; s < plan->stage_count; s++) {
+        const Clock clock = plan_clock(plan, s);
+        if (!clock.thermostatted || clock.drive) continue;
+        TRY(centre(results, &plan->system, clock.stage, "self_scattering",
+                   "self_scattering_centred"));
+        TRY(centre(results, &plan->system, clock.stage, "collective_scattering_normalised",
+                   "collective_scattering_centred"));
+    }
     return OK;
 }

@@ -36,8 +36,13 @@
 // With several species, diffusion is given for all particles and, with _NAME, for each species.
 Status analysis_derive(Results *results, const System *system);
 
+// Of event-driven Brownian stages at rest: self_scattering_centred and
+// collective_scattering_centred, functions about the centre of mass, and all that is made of
+// scattering functions for them. After analysis_derive.
+Status analysis_centre(Results *results, const Plan *plan);
+
 // Whether the stages at rest were in equilibrium: relaxation_share and structure_peak, scalars, and
-// a fact "equilibrium of STAGE" in words. After analysis_derive.
+// a fact "equilibrium of STAGE" in words. After both.
 Status analysis_judge(Results *results, const Plan *plan);
 
 // Of the quantities of many states over an axis of packing fractions (campaign/combine.h), for each

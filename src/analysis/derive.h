@@ -26,6 +26,10 @@ Status derive_theory(Results *results, const char *stage, const System *system);
 Status derive_drift(Results *results, const ResultSeries *blocks);
 Status derive_structure_change(Results *results, const ResultSeries *structure);
 Status derive_factorisation(Results *results, const ResultSeries *scattering);
+// The free diffusion of the centre of mass in D0, and functions without it.
+double centre_diffusion(const System *system);
+Status derive_centred(Results *results, const ResultSeries *scattering, const char *name,
+                      double diffusion);
 Status derive_shift(Results *results, const ResultSeries *scattering);
 Status derive_scaled(Results *results, const ResultSeries *scattering);
 Status derive_kohlrausch(Results *results, const ResultSeries *scattering);

@@ -72,7 +72,9 @@ static Status judge_times(Judged *judged, const ResultSeries *times) {
 }
 
 static Status judge_relaxation(Judged *judged) {
-    static const char *const decays[] = {"self_scattering", "collective_scattering_normalised"};
+    static const char *const decays[] = {"self_scattering_centred", "self_scattering",
+                                         "collective_scattering_centred",
+                                         "collective_scattering_normalised"};
     for (size_t i = 0; i < sizeof decays / sizeof *decays; i++) {
         char name[RESULT_NAME];
         snprintf(name, sizeof name, "%s_relaxation_time", decays[i]);

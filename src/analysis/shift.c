@@ -78,11 +78,24 @@ static bool same_rows(const ResultSeries *a, const ResultSeries *b) {
     return a->axes == b->axes && a->size / times_of(a)->count == b->size / times_of(b)->count;
 }
 
+// Newtonian stages, whose centre of mass rests, have no functions about it of their own.
+static const char *newtonian_name(const char *observable) {
+    static const char *const names[][2] = {
+        {"self_scattering_centred", "self_scattering"},
+        {"collective_scattering_centred", "collective_scattering_normalised"},
+    };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (strcmp(observable, names[i][0]) == 0) return names[i][1];
+    }
+    return observable;
+}
+
 // The last of the stages before with the same functions over times of another unit.
 static const ResultSeries *counterpart(const Results *results, const ResultSeries *series) {
     const ResultSeries *found = NULL;
+    const char *name = newtonian_name(series->observable);
     for (const ResultSeries *s = results->series; s < series; s++) {
-        if (strcmp(s->observable, series->observable) != 0 || !same_rows(s, series)) continue;
+        if (strcmp(s->observable, name) != 0 || !same_rows(s, series)) continue;
         if (strcmp(times_of(s)->unit, times_of(series)->unit) != 0) found = s;
     }
     return found;

@@ -200,6 +200,7 @@ static Status fill(const Plan *plan, const char *directory, Results *results) {
     TRY(status);
     TRY(results_put_fact(results, "analysed", directory));
     TRY(analysis_derive(results, &plan->system));
+    TRY(analysis_centre(results, plan));
     return analysis_judge(results, plan);
 }
 

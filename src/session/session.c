@@ -139,6 +139,7 @@ static Status keep_results(Session *session, Results *results, double seconds) {
     TRY(provenance_put(results, session->plan, session->plan_text, seconds));
     if (!plan_is_theory(session->plan)) {
         TRY(analysis_derive(results, &session->plan->system));
+        TRY(analysis_centre(results, session->plan));
         TRY(analysis_judge(results, session->plan));
     }
     TRY(store_write_results(session->store, results));

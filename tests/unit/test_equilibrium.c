@@ -96,6 +96,42 @@ START_TEST(crystals_are_seen) {
 }
 END_TEST
 
+// A glass of 100 discs whose centre of mass alone moves: D0/100.
+START_TEST(a_drifting_glass_stands_still_about_its_centre) {
+    static const char BROWNIAN[] = "system:\n"
+                                   "  dimension: 2\n"
+                                   "  particles: 100\n"
+                                   "  packing_fraction: 0.5\n"
+                                   "  species: {disc: {shape: disc, diameter: 1, fraction: 1}}\n"
+                                   "dynamics: {method: event-driven}\n"
+                                   "protocol: [{stage: quiescent, time: 100}]\n";
+    static const double waves[2] = {3, 6};
+    double times[LAGS], values[2][LAGS];
+    Results *results = NULL;
+    Plan *plan = NULL;
+    ck_assert_msg(config_read_text(&plan, "run.yaml", BROWNIAN, strlen(BROWNIAN), NULL) == OK, "%s",
+                  status_sentence());
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    for (int k = 0; k < LAGS; k++) {
+        times[k] = 0.1 * pow(10, 0.1 * k);
+        for (int q = 0; q < 2; q++) values[q][k] = 0.8 * exp(-waves[q] * waves[q] * times[k] / 100);
+    }
+    const ResultSeries shape = {
+        .stage = "quiescent",
+        .observable = "self_scattering",
+        .axes = 2,
+        .axis = {{.name = "wave_number", .unit = "1/d", .count = 2, .values = waves},
+                 {.name = "time", .unit = "d^2/D0", .count = LAGS, .values = times}}};
+    ck_assert_int_eq(results_put_series(results, &shape, 0, &values[0][0]), OK);
+    ck_assert_int_eq(analysis_derive(results, &plan->system), OK);
+    ck_assert_int_eq(analysis_centre(results, plan), OK);
+    const ResultSeries *still = series_of(results, "quiescent", "self_scattering_centred");
+    for (size_t i = 0; i < still->size; i++) ck_assert_double_eq_tol(still->values[i], 0.8, 1e-12);
+    results_free(results);
+    memory_free(plan);
+}
+END_TEST
+
 START_TEST(without_measurements_nothing_is_said) {
     Results *results = NULL;
     Plan *plan = plan_new();
@@ -113,6 +149,7 @@ int main(void) {
     tcase_add_test(c, relaxations_are_counted);
     tcase_add_test(c, halves_are_compared);
     tcase_add_test(c, crystals_are_seen);
+    tcase_add_test(c, a_drifting_glass_stands_still_about_its_centre);
     tcase_add_test(c, without_measurements_nothing_is_said);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
