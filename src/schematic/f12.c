@@ -21,9 +21,8 @@ double f12_v1_at(double v2, double separation) {
 // The larger root of (v1 + v2 f)(1 - f) = 1, as long as there is one.
 double f12_plateau(const F12 *model) {
     const double v1 = model->v1, v2 = model->v2;
-    const double square = (v1 + v2) * (v1 + v2) - 4 * v2;
-    if (v1 < f12_critical_v1(v2) || square < 0) return 0;
-    const double root = sqrt(square);
+    if (v1 < f12_critical_v1(v2)) return 0;
+    const double root = sqrt(fmax(0, (v1 + v2) * (v1 + v2) - 4 * v2)); // 0 at the transition
     // The form that does not divide by v2, which may be 0, where v1 > v2.
     const double f = v1 > v2 ? 2 * (v1 - 1) / (root + v1 - v2) : (v2 - v1 + root) / (2 * v2);
     return fmax(f, 0);
