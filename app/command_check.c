@@ -162,10 +162,31 @@ static void print_itt(const IttPlan *itt) {
     printf("\n");
 }
 
+static void print_schematic(const SchematicPlan *schematic) {
+    const F12 model = schematic_model(schematic);
+    printf("theory    schematic model of one correlator\n");
+    printf("          v1 = %.6g, v2 = %.6g; the transition is at v1 = %.6g\n", model.v1, model.v2,
+           f12_critical_v1(model.v2));
+    if (schematic->shear_rate > 0)
+        printf("          shear rate %.6g D0/d^2\n", schematic->shear_rate);
+    else if (schematic_oscillates(schematic))
+        printf("          strain %.6g sin(%.6g t), %lld cycles\n", schematic->amplitude,
+               schematic->frequency, (long long)schematic->periods);
+    else if (schematic_has_table(schematic))
+        printf("          shear of a table, for %.6g d^2/D0\n", schematic->duration);
+    printf("memory    %.3g MiB\ntime      about ", (double)schematic_memory(schematic) / MEBIBYTE);
+    print_seconds(schematic_seconds(schematic));
+    printf("\n");
+}
+
 static Status print_plan(const Plan *plan) {
     if (plan->title[0] != '\0') printf("%s\n", plan->title);
     if (plan->itt.given) {
         print_itt(&plan->itt);
+        return OK;
+    }
+    if (plan->schematic.given) {
+        print_schematic(&plan->schematic);
         return OK;
     }
     if (plan_is_theory(plan)) {

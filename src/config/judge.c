@@ -309,6 +309,10 @@ Status judge_itt(const Node *root, const IttPlan *itt) {
     return placed(root, tree_find(root, "itt"), itt_check(itt));
 }
 
+Status judge_schematic(const Node *root, const SchematicPlan *schematic) {
+    return placed(root, tree_find(root, "schematic"), schematic_check(schematic));
+}
+
 Status judge_memory(const Node *root, const Plan *plan) {
     static const double GIBIBYTE = 1073741824;
     const double there = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
@@ -320,6 +324,12 @@ Status judge_memory(const Node *root, const Plan *plan) {
                          "machine has %.3g GiB",
                          plan->itt.last_wave_number, plan->itt.spacing, needed / GIBIBYTE,
                          there / GIBIBYTE);
+    if (plan->schematic.given)
+        return tree_fail(place(root, "schematic", "cycles"),
+                         "%lld moments of %lld cycles need %.3g GiB of memory; this machine has "
+                         "%.3g GiB",
+                         (long long)plan->schematic.moments, (long long)plan->schematic.periods,
+                         needed / GIBIBYTE, there / GIBIBYTE);
     if (plan_is_theory(plan))
         return tree_fail(place(root, "theory", "wave_numbers"),
                          "%lld wave numbers need %.3g GiB of memory; this machine has %.3g GiB",

@@ -12,6 +12,7 @@ Status judge_plan(const Node *root, const Plan *plan);
 // Likewise a run of the theory.
 Status judge_theory(const Node *root, const TheoryPlan *theory);
 Status judge_itt(const Node *root, const IttPlan *itt);
+Status judge_schematic(const Node *root, const SchematicPlan *schematic);
 
 // BAD_DATA if one replica does not fit into the memory of this machine.
 Status judge_memory(const Node *root, const Plan *plan);

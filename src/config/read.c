@@ -292,6 +292,15 @@ static Status read_itt(const Node *root, const Node *map, Plan *plan) {
     return judge_itt(root, &plan->itt);
 }
 
+static Status read_schematic(const Node *root, const Node *map, Plan *plan) {
+    TRY(check_alone(root, "schematic"));
+    TRY(options_default(&schematic_options, &plan->schematic));
+    TRY(read_section("schematic", &schematic_options, &plan->schematic, NULL, map, true));
+    plan->schematic.given = true;
+    plan->ensemble.replicas = 1;
+    return judge_schematic(root, &plan->schematic);
+}
+
 static Status read_plan(const Node *root, Plan *plan) {
     const Node *dynamics = NULL;
     TRY(options_default(&section_title_options, plan));
@@ -300,6 +309,8 @@ static Status read_plan(const Node *root, Plan *plan) {
     if (theory) return read_theory(root, theory, plan);
     const Node *itt = tree_find(root, "itt");
     if (itt) return read_itt(root, itt, plan);
+    const Node *schematic = tree_find(root, "schematic");
+    if (schematic) return read_schematic(root, schematic, plan);
     TRY(read_system(root, &plan->system));
     TRY(find_required(root, "dynamics", "how time advances, as {method: event-driven}", &dynamics));
     TRY(read_dynamics(dynamics, "dynamics", &plan->dynamics));

@@ -33,8 +33,9 @@ static const Option range_rows[] = {
 const OptionTable section_range_options = {range_rows, sizeof range_rows / sizeof *range_rows,
                                            sizeof(SweepRange)};
 
-const char *const section_root_keys[] = {"system", "dynamics", "protocol", "observe", "ensemble",
-                                         "output", "sweep",    "theory",   "itt",     NULL};
+const char *const section_root_keys[] = {"system",    "dynamics", "protocol", "observe",
+                                         "ensemble",  "output",   "sweep",    "theory",
+                                         "schematic", "itt",      NULL};
 
 static const Section before_methods[] = {
     {"", NULL, "A run file is one YAML map of sections.", &section_title_options},
@@ -79,6 +80,10 @@ static const Section after_observables[] = {
      "One kind of particles of the theory, under a name of your choice. The first sets the unit of "
      "time by its free diffusion coefficient D0.",
      &theory_species_options},
+    {"schematic", NULL,
+     "The schematic model F12 of the glass transition, one correlator at rest or under any shear, "
+     "in place of system, dynamics and protocol.",
+     &schematic_options},
     {"itt", NULL,
      "Mode-coupling theory of equal discs under shear that begins at time 0, integrated through "
      "the "
@@ -151,8 +156,6 @@ static const struct {
     const char *word;
     const char *sentence;
 } hints[] = {
-    {"schematic", "this version has no schematic models; theory has the equations for discs and "
-                  "spheres"},
     {"closure", "where the theory takes its structure from is called structure"},
     {"shear_stress", "it is called stress"},
     {"coherent_scattering", "it is called collective_scattering"},

@@ -118,11 +118,20 @@ static void write_itt(const IttPlan *itt, Text *text) {
     write_table(&itt_options, NULL, itt, STEP, text);
 }
 
+static void write_schematic(const SchematicPlan *schematic, Text *text) {
+    text_add(text, "\nschematic:\n");
+    write_table(&schematic_options, NULL, schematic, STEP, text);
+}
+
 static void write_plan(const Plan *plan, Text *text) {
     text_add(text, "# A run file with every value written out; `perrin explain KEY` says more.\n");
     write_table(&section_title_options, NULL, plan, 0, text);
     if (plan->itt.given) {
         write_itt(&plan->itt, text);
+        return;
+    }
+    if (plan->schematic.given) {
+        write_schematic(&plan->schematic, text);
         return;
     }
     if (plan_is_theory(plan)) {

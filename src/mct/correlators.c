@@ -8,6 +8,7 @@
 #include "mct/history.h"
 #include "mct/lines.h"
 #include "mct/model.h"
+#include "mct/stretch.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,6 +38,7 @@ struct Correlators {
     History self;                     // [species][stride]
     double *self_inverse, *self_rest; // [species][stride]
     History displacement;             // [species], one line
+    Stretch *stretch;                 // NULL at rest
 };
 
 static double *line(const Correlators *c, double *field, size_t index) {
@@ -258,6 +260,9 @@ static Status fail_slow(const Correlators *c, double change) {
 static Status advance_collective(Correlators *c) {
     double *phi = history_f(&c->collective, c->now), *memory = history_m(&c->collective, c->now);
     double change = INFINITY;
+    if (c->stretch)
+        c->model->stretched =
+            stretch_direct(c->stretch, c->settings.shear_rate * correlators_time(c));
     fill_rest(c);
     extrapolate(&c->collective, c->now);
     for (int i = 0; i < ITERATIONS_MOST && !(change < CONVERGED); i++)
@@ -436,8 +441,13 @@ static Status begin(Correlators *c) {
 Status correlators_create(Correlators **out, const Grid *grid, const Structure *structure,
                           const CorrelatorSettings *settings) {
     *out = NULL;
+    if (settings->shear_rate != 0 && (structure->mixture.species > 1 || settings->tagged))
+        return status_fail(BAD_DATA, "the isotropically sheared model is of one species, of which "
+                                     "none is tagged");
     Status status = create(out, grid, structure, settings);
     if (status == OK) status = begin(*out);
+    if (status == OK && settings->shear_rate != 0)
+        status = stretch_create(&(*out)->stretch, grid, structure);
     if (status == OK) return OK;
     correlators_free(*out);
     *out = NULL;
@@ -469,6 +479,7 @@ void correlators_free(Correlators *c) {
     history_free(&c->collective);
     history_free(&c->self);
     history_free(&c->displacement);
+    stretch_free(c->stretch);
     model_free(c->model);
     memory_free(c);
 }

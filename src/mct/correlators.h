@@ -13,6 +13,8 @@ typedef struct CorrelatorSettings {
     size_t block; // points of a block of the doubling grid, a multiple of 4; 0: 128
     double diffusion[MIXTURE_SPECIES_MOST]; // free, of the species, in D0
     bool tagged;                            // also tagged particles
+    double
+        shear_rate; // of the isotropically sheared model, one species and none tagged; 0: at rest
 } CorrelatorSettings;
 
 typedef struct Correlators Correlators;

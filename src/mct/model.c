@@ -144,8 +144,26 @@ static void fill_products(Model *model, const double *phi) {
     }
 }
 
+// Of one species whose second vertex has its wave numbers stretched: X = c c' Phi, Y = c Phi, Z =
+// c' Phi.
+static void fill_stretched(Model *model, const double *phi) {
+    const size_t stride = model->grid->stride;
+    double *sources = model->sources;
+    for (size_t m = 0; m < model->grid->count; m++) {
+        const double direct = model->direct[m], stretched = model->stretched[m];
+        sources[PHI * stride + m] = model->powers[0][m] * phi[m];
+        sources[X * stride + m] = model->powers[2][m] * direct * stretched * phi[m];
+        sources[Y * stride + m] = model->powers[1][m] * direct * phi[m];
+        sources[Z * stride + m] = model->powers[1][m] * stretched * phi[m];
+    }
+}
+
 static void fill_sources(Model *model, const double *phi) {
     const size_t stride = model->grid->stride, species = model->species;
+    if (model->stretched) {
+        fill_stretched(model, phi);
+        return;
+    }
     fill_products(model, phi);
     for (size_t a = 0; a < species; a++) {
         for (size_t b = a; b < species; b++) {
@@ -184,7 +202,9 @@ static void transform_pair(const Model *model, const Row *row, size_t a, size_t 
     const double *sources = model->sources + mixture_pair(model->species, a, b) * SOURCES * stride;
     with->dots(row->j, sources + PHI * stride, sources + X * stride, sources + Y * stride, stride,
                transforms);
-    transforms[R_Z] = a == b ? transforms[R_Y] : with->dot(row->j[1], sources + Z * stride, stride);
+    transforms[R_Z] = a == b && !model->stretched
+                          ? transforms[R_Y]
+                          : with->dot(row->j[1], sources + Z * stride, stride);
 }
 
 static void add_back(const Model *model, const Row *row, size_t pair, double g0, double g2,

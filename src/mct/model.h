@@ -19,6 +19,8 @@ typedef struct Model {
     double *product;                   // [a][b][stride]: c Phi
     double *powers[3];                 // [stride]: k_weight times k^0, k^1, k^2
     double *scale;                     // [size]: rho/(d x_a x_b q^2)
+    const double *stretched; // [stride]: c of one species at wave numbers that shear has stretched,
+                             // of the second of the two vertices; borrowed; NULL: as the first
 } Model;
 
 Status model_create(Model **out, const Grid *grid, const Structure *structure);

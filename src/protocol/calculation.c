@@ -5,7 +5,8 @@
 #include "base/memory.h"
 
 struct Calculation {
-    Theory *theory; // one of the two
+    Theory *theory; // one of the three
+    Schematic *schematic;
     Itt *itt;
 };
 
@@ -13,8 +14,13 @@ Status calculation_create(Calculation **out, const Plan *plan) {
     Calculation *c = NULL;
     *out = NULL;
     TRY(NEW(c));
-    const Status status = plan->itt.given ? itt_create(&c->itt, &plan->itt)
-                                          : theory_create(&c->theory, &plan->theory);
+    Status status;
+    if (plan->itt.given)
+        status = itt_create(&c->itt, &plan->itt);
+    else if (plan->schematic.given)
+        status = schematic_create(&c->schematic, &plan->schematic);
+    else
+        status = theory_create(&c->theory, &plan->theory);
     if (status == OK)
         *out = c;
     else
@@ -25,26 +31,37 @@ Status calculation_create(Calculation **out, const Plan *plan) {
 void calculation_free(Calculation *c) {
     if (!c) return;
     theory_free(c->theory);
+    schematic_free(c->schematic);
     itt_free(c->itt);
     memory_free(c);
 }
 
 Status calculation_advance(Calculation *c, Results *results) {
-    return c->itt ? itt_advance(c->itt, results) : theory_advance(c->theory, results);
+    if (c->itt) return itt_advance(c->itt, results);
+    if (c->schematic) return schematic_advance(c->schematic, results);
+    return theory_advance(c->theory, results);
 }
 
 bool calculation_finished(const Calculation *c) {
-    return c->itt ? itt_finished(c->itt) : theory_finished(c->theory);
+    if (c->itt) return itt_finished(c->itt);
+    if (c->schematic) return schematic_finished(c->schematic);
+    return theory_finished(c->theory);
 }
 
 double calculation_progress(const Calculation *c) {
-    return c->itt ? itt_progress(c->itt) : theory_progress(c->theory);
+    if (c->itt) return itt_progress(c->itt);
+    if (c->schematic) return schematic_progress(c->schematic);
+    return theory_progress(c->theory);
 }
 
 const char *calculation_doing(const Calculation *c) {
-    return c->itt ? itt_doing(c->itt) : theory_doing(c->theory);
+    if (c->itt) return itt_doing(c->itt);
+    if (c->schematic) return schematic_doing(c->schematic);
+    return theory_doing(c->theory);
 }
 
 double calculation_time(const Calculation *c) {
-    return c->itt ? itt_time(c->itt) : theory_time(c->theory);
+    if (c->itt) return itt_time(c->itt);
+    if (c->schematic) return schematic_time(c->schematic);
+    return theory_time(c->theory);
 }

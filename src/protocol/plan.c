@@ -51,7 +51,7 @@ const OptionTable output_options = {output_rows, sizeof output_rows / sizeof *ou
                                     sizeof(OutputPlan)};
 
 bool plan_is_theory(const Plan *plan) {
-    return plan->theory.species_count > 0 || plan->itt.given;
+    return plan->theory.species_count > 0 || plan->itt.given || plan->schematic.given;
 }
 
 bool stage_is_recorded(const Plan *plan, size_t stage) {
@@ -220,6 +220,7 @@ static Status check_output(const Plan *plan) {
 
 Status plan_check(const Plan *plan) {
     if (plan->itt.given) return itt_check(&plan->itt);
+    if (plan->schematic.given) return schematic_check(&plan->schematic);
     if (plan_is_theory(plan)) return theory_check(&plan->theory);
     TRY(check_system(&plan->system));
     TRY(check_output(plan));
@@ -230,6 +231,7 @@ Status plan_check(const Plan *plan) {
 
 size_t plan_memory(const Plan *plan) {
     if (plan->itt.given) return itt_memory(&plan->itt);
+    if (plan->schematic.given) return schematic_memory(&plan->schematic);
     if (plan_is_theory(plan)) return theory_memory(&plan->theory);
     const size_t particles = (size_t)plan->system.particles;
     const size_t state =
@@ -250,6 +252,7 @@ size_t plan_memory(const Plan *plan) {
 
 double plan_seconds(const Plan *plan) {
     if (plan->itt.given) return itt_seconds(&plan->itt);
+    if (plan->schematic.given) return schematic_seconds(&plan->schematic);
     if (plan_is_theory(plan)) return theory_seconds(&plan->theory);
     double seconds = 0;
     for (size_t s = 0; s < plan->stage_count; s++) {

@@ -5,6 +5,7 @@
 
 #include "observables/observables.h"
 #include "propagator/propagator.h"
+#include "schematic/schematic.h"
 #include "state/system.h"
 #include "itt/itt.h"
 #include "theory/theory.h"
@@ -48,6 +49,7 @@ typedef struct Plan {
     OutputPlan output;
     TheoryPlan theory; // with species: a run of the theory, of which all but the title is empty
     IttPlan itt;       // given: likewise, of the theory under shear
+    SchematicPlan schematic; // given: likewise, of a schematic model
 } Plan;
 
 extern const OptionTable stage_options;       // of one entry of `protocol:`, beside drive_options
@@ -55,7 +57,7 @@ extern const OptionTable stage_until_options; // of a Stage: how it may end befo
 extern const OptionTable ensemble_options;
 extern const OptionTable output_options;
 
-bool plan_is_theory(const Plan *plan); // of either theory: there are no particles
+bool plan_is_theory(const Plan *plan); // of one of the theories: there are no particles
 
 // BAD_DATA with a sentence if a stage cannot be driven like this, or has no end.
 Status stage_check_drive(const Plan *plan, size_t stage);

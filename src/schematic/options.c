@@ -56,8 +56,9 @@ static const Option rows[] = {
      .fallback = 100,
      .least = 1e-6,
      .most = 1e9,
-     .unit = "kT/d^dim",
-     .about = "v_sigma, stress per strain and squared correlator."},
+     .unit = "",
+     .about =
+         "v_sigma, stress per strain and squared correlator: its unit is that of all stresses."},
     {.name = "softening_strain",
      .type = OPTION_REAL,
      .offset = offsetof(SchematicPlan, softening_strain),
@@ -252,11 +253,13 @@ static Status check_table(const SchematicPlan *plan) {
 }
 
 static Status check_shear(const SchematicPlan *plan) {
-    if ((plan->shear_rate > 0) + schematic_oscillates(plan) + schematic_has_table(plan) > 1)
+    if (plan->shear_rate > 0 && (schematic_oscillates(plan) || schematic_has_table(plan)))
+        return status_fail(BAD_DATA, "shear_rate = %g stands beside %s; give one of the two",
+                           plan->shear_rate,
+                           schematic_oscillates(plan) ? "oscillate" : "shear_table");
+    if (schematic_oscillates(plan) && schematic_has_table(plan))
         return status_fail(BAD_DATA,
-                           "%s stands beside another; give one of shear_rate, oscillate "
-                           "and shear_table",
-                           plan->shear_rate > 0 ? "shear_rate = a number" : "oscillate = {...}");
+                           "oscillate = {...} stands beside shear_table; give one of the two");
     if ((plan->amplitude > 0) != (plan->frequency > 0))
         return status_fail(BAD_DATA,
                            "oscillate = {amplitude: %g, frequency: %g}: both must be above 0",
@@ -277,10 +280,10 @@ Status schematic_check(const SchematicPlan *plan) {
                            plan->separation, schematic_model(plan).v1);
     TRY(check_shear(plan));
     if (plan->first_time >= plan->last_time)
-        return status_fail(BAD_DATA, "times: first = %g is not below last = %g", plan->first_time,
+        return status_fail(BAD_DATA, "times.first = %g is not below last = %g", plan->first_time,
                            plan->last_time);
     if (wants(plan, SCHEMATIC_FLOW_CURVE) && plan->first_rate >= plan->last_rate)
-        return status_fail(BAD_DATA, "flow_curve: first = %g is not below last = %g",
+        return status_fail(BAD_DATA, "flow_curve.first = %g is not below last = %g",
                            plan->first_rate, plan->last_rate);
     if (plan->block % 4 != 0)
         return status_fail(BAD_DATA, "block = %lld is not a multiple of 4", (long long)plan->block);

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #define STAGE "schematic"
-#define STRESS_UNIT "kT/d^dim"
+#define STRESS_UNIT "" // that of the modulus
 
 static ResultSeries shape_of(const char *name, const char *unit, const char *about) {
     ResultSeries shape = {.stage = STAGE};

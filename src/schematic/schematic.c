@@ -140,8 +140,8 @@ static Status put_start_up(const Schematic *s, Results *results) {
     TRY(put_stress(results, "Shear stress against the strain since the shear began.", "strain", "",
                    s->strain, STRAINS, s->stress));
     TRY(put_scalar(results, "shear_rate", "D0/d^2", "Shear rate.", s->plan->shear_rate));
-    TRY(put_scalar(results, "shear_stress", "kT/d^dim", "Shear stress of steady flow.", steady));
-    TRY(put_scalar(results, "shear_viscosity", "kT/(d^dim D0)", "Shear stress over shear rate.",
+    TRY(put_scalar(results, "shear_stress", "", "Shear stress of steady flow.", steady));
+    TRY(put_scalar(results, "shear_viscosity", "d^2/D0", "Shear stress over shear rate.",
                    steady / s->plan->shear_rate));
     if (top + 1 == STRAINS || !(s->stress[top] > steady)) return OK;
     TRY(put_scalar(results, "overshoot_strain", "", "Strain where the stress is largest.",
@@ -193,8 +193,10 @@ static Strain strain_of(const SchematicPlan *plan) {
     return strain;
 }
 
+// The second half of a cycle is the mirror image of the first.
 static size_t beginning(const Schematic *s, size_t k) {
-    return k * (size_t)s->plan->moments / BEGINNINGS;
+    const size_t parts = (schematic_oscillates(s->plan) ? 2 : 1) * BEGINNINGS;
+    return k * (size_t)s->plan->moments / parts;
 }
 
 static Status begin_driven(Schematic *s) {
@@ -254,10 +256,10 @@ static Status put_moduli(const Schematic *s, Results *results) {
         size[n] = hypot(moduli[0][n], moduli[1][n]);
     }
     TRY(put_harmonics(results, HARMONICS, moduli[0]));
-    TRY(put_scalar(results, "storage_modulus", "kT/d^dim",
+    TRY(put_scalar(results, "storage_modulus", "",
                    "G' of the first harmonic: stress in phase with the strain, over its amplitude.",
                    moduli[0][0]));
-    TRY(put_scalar(results, "loss_modulus", "kT/d^dim",
+    TRY(put_scalar(results, "loss_modulus", "",
                    "G'' of the first harmonic: stress in phase with the rate, over the strain's "
                    "amplitude.",
                    moduli[1][0]));
@@ -269,16 +271,16 @@ static Status put_moduli(const Schematic *s, Results *results) {
                       size[4] / size[0]);
 }
 
-// `phase` and `values` have room for a cycle.
+// From phase 0 to 1, so that the curve closes; `phase` has room for it.
 static Status put_cycle(const Schematic *s, Results *results, double *phase, const double *strain,
                         const double *stress) {
-    const size_t moments = (size_t)s->plan->moments, last = driven_count(s->driven) - moments;
-    for (size_t k = 0; k < moments; k++) phase[k] = (double)(k + 1) / (double)moments;
-    TRY(put_line(results, "stress_cycle", "kT/d^dim", "Shear stress over the last cycle.", "phase",
-                 "", phase, moments, stress + last));
-    TRY(put_line(results, "lissajous", "kT/d^dim",
-                 "Shear stress over the last cycle, against the strain.", "cycle_strain", "",
-                 strain + last, moments, stress + last));
+    const size_t moments = (size_t)s->plan->moments;
+    const size_t first = driven_count(s->driven) - moments - 1;
+    for (size_t k = 0; k <= moments; k++) phase[k] = (double)k / (double)moments;
+    TRY(put_line(results, "stress_cycle", "", "Shear stress over the last cycle.", "phase", "",
+                 phase, moments + 1, stress + first));
+    TRY(put_line(results, "lissajous", "", "Shear stress over the last cycle, against the strain.",
+                 "cycle_strain", "", strain + first, moments + 1, stress + first));
     TRY(put_scalar(results, "cycle_mismatch", "",
                    "Largest change of the stress from the last cycle but one to the last, over the "
                    "largest stress: what more cycles would still change.",
@@ -352,7 +354,7 @@ static Status solve_flow(Schematic *s, Results *results) {
     s->rates++;
     s->share = (double)s->rates / (double)s->rates_most;
     if (s->rates < s->rates_most) return OK;
-    return put_line(results, "flow_curve", "kT/d^dim", "Shear stress of steady flow.", "shear_rate",
+    return put_line(results, "flow_curve", "", "Shear stress of steady flow.", "shear_rate",
                     "D0/d^2", s->rate, s->rates, s->flow);
 }
 
@@ -373,7 +375,7 @@ static Status find_yield(Schematic *s, Results *results) {
         before = stress;
         TRY(stress_at(s, rate, &stress));
     }
-    return put_scalar(results, "yield_stress", "kT/d^dim",
+    return put_scalar(results, "yield_stress", "",
                       "Shear stress of steady flow as the rate goes to 0.", stress);
 }
 

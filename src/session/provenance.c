@@ -100,10 +100,22 @@ static Status put_itt(Results *results, const IttPlan *itt) {
     return status;
 }
 
+// "schematic model: v1 = 0.83, v2 = 2, plateau 0.3"
+static Status put_schematic(Results *results, const SchematicPlan *schematic) {
+    Text words = {0};
+    const F12 model = schematic_model(schematic);
+    text_add(&words, "schematic model of one correlator: v1 = %.6g, v2 = %.6g", model.v1, model.v2);
+    const Status status = results_put_fact(results, "system", text_words(&words));
+    text_free(&words);
+    return status;
+}
+
 Status provenance_put(Results *results, const Plan *plan, const char *plan_text, double seconds) {
     TRY(results_put_fact(results, "title", plan->title));
     if (plan->itt.given) {
         TRY(put_itt(results, &plan->itt));
+    } else if (plan->schematic.given) {
+        TRY(put_schematic(results, &plan->schematic));
     } else if (plan_is_theory(plan)) {
         TRY(put_theory(results, &plan->theory));
     } else {
