@@ -20,8 +20,8 @@ typedef struct Overshoot {
     double strain, peak, steady;
 } Overshoot;
 
-static const double NEAR_PEAK = 0.93; // of the highest window: what the parabola is laid through
-enum { PEAK_LEAST = 5, ALL = -1 };
+static const double NEAR_PEAK = 0.93; // of the highest stress: what the parabola is laid through
+enum { PEAK_LEAST = 5, ALL = -1, PARTS = 40 };
 
 static void mean_without(const ResultSeries *series, size_t replicas, int64_t left_out,
                          StartUp *mean) {
@@ -37,16 +37,27 @@ static void mean_without(const ResultSeries *series, size_t replicas, int64_t le
     }
 }
 
+// Mean over a fortieth of the stage round a window, so that noise does not make the peak.
+static double smooth(const StartUp *mean, size_t window) {
+    const size_t reach = mean->count / (2 * PARTS);
+    const size_t begin = window > reach ? window - reach : 0;
+    double sum = 0, number = 0;
+    for (size_t k = begin; k <= window + reach && k < mean->count; k++, number++) {
+        sum += mean->stress[k];
+    }
+    return sum / number;
+}
+
 // Windows [begin, end) round the highest whose stress is near its, seen from either side.
 static void near_peak(const StartUp *mean, double sign, size_t *begin, size_t *end) {
     size_t top = 0;
     for (size_t k = 1; k < mean->count; k++) {
-        if (sign * mean->stress[k] > sign * mean->stress[top]) top = k;
+        if (sign * smooth(mean, k) > sign * smooth(mean, top)) top = k;
     }
-    const double least = NEAR_PEAK * sign * mean->stress[top];
+    const double least = NEAR_PEAK * sign * smooth(mean, top);
     *begin = *end = top;
-    while (*begin > 0 && sign * mean->stress[*begin - 1] > least) --*begin;
-    while (*end < mean->count && sign * mean->stress[*end] > least) ++*end;
+    while (*begin > 0 && sign * smooth(mean, *begin - 1) > least) --*begin;
+    while (*end < mean->count && sign * smooth(mean, *end) > least) ++*end;
 }
 
 // The windows of the peak are those of the mean over all replicas.
@@ -84,7 +95,7 @@ static Status derive_overshoot(Results *results, const ResultSeries *series, Sta
     while (mean->count > 0 && !isfinite(mean->stress[mean->count - 1]))
         mean->count--; // ended early
     if (mean->count < 4 * PEAK_LEAST) return OK;
-    const double sign = mean->stress[mean->count - 1] < 0 ? -1 : 1;
+    const double sign = smooth(mean, mean->count - 1) < 0 ? -1 : 1;
     near_peak(mean, sign, &begin, &end);
     // Before it the stress must have been seen to rise, after it to fall.
     if (begin == 0 || end >= mean->count / 2 || end - begin < PEAK_LEAST) return OK;

@@ -176,7 +176,7 @@ static void archive(Observer *observer, Archive *archive) {
 static Status put_cycle(const Oscillatory *self, const State *state, double *values, double *strain,
                         Results *results, size_t replica) {
     const double amplitude = amplitude_of(&self->observer.clock);
-    double *phase = strain + self->phases;
+    double *phase = strain + self->phases + 1;
     for (size_t k = 0; k < self->phases; k++) {
         phase[k] = ((double)k + 0.5) / (double)self->phases;
         strain[k] = amplitude * sin(2 * PI * phase[k]);
@@ -188,9 +188,11 @@ static Status put_cycle(const Oscillatory *self, const State *state, double *val
         .axis = {{.name = "phase", .unit = "", .count = self->phases, .values = phase}}};
     strcpy(shape.unit, stress_unit(state->box.dimension));
     TRY(observer_put_series(&self->observer, "stress_cycle", &shape, results, replica, values));
-    // A closed curve: parts of the cycle in their order, along an axis that turns back.
-    shape.axis[0] =
-        (ResultAxis){.name = "cycle_strain", .unit = "", .count = self->phases, .values = strain};
+    // A closed curve: parts of the cycle in their order, the first again at the end.
+    strain[self->phases] = strain[0];
+    values[self->phases] = values[0];
+    shape.axis[0] = (ResultAxis){
+        .name = "cycle_strain", .unit = "", .count = self->phases + 1, .values = strain};
     return observer_put_series(&self->observer, "lissajous", &shape, results, replica, values);
 }
 
@@ -230,8 +232,8 @@ static Status write(const Observer *observer, const State *state, Results *resul
                     size_t replica) {
     const Oscillatory *self = (const Oscillatory *)observer;
     double *values = NULL, *axes = NULL;
-    Status status = NEW_ARRAY(values, self->phases);
-    if (status == OK) status = NEW_ARRAY(axes, 2 * self->phases);
+    Status status = NEW_ARRAY(values, self->phases + 1);
+    if (status == OK) status = NEW_ARRAY(axes, 2 * self->phases + 1);
     if (status == OK) status = put_cycle(self, state, values, axes, results, replica);
     if (status == OK) status = put_harmonics(self, state, results, replica);
     memory_free(values);
