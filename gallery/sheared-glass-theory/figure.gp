@@ -6,12 +6,11 @@ set logscale xy
 set format "10^{%L}"
 set xlabel "shear rate in D_0/d^2"
 set ylabel "stress in kT/d^2"
-set yrange [1e-2:20]
+set yrange [1e-4:20]
 set key top left
-plot "measured.csv" using ($3):(of("glass", 2, of("stress", 4, $5))) with linespoints linetype 2 title "{/Symbol e} = 0.01, glass", \
-     "measured.csv" using ($3):(of("fluid", 2, of("stress", 4, $5))) with linespoints linetype 1 title "{/Symbol e} = -0.01, fluid", \
-     "verdict.csv" using (of("start_0.1", 1, 0.1)):(of("stress", 2, $7)) with points pointtype 4 linecolor rgb "black" title "independent", \
-     "verdict.csv" using (of("start_0.001", 1, 0.001)):(of("stress", 2, $7)) with points pointtype 4 linecolor rgb "black" notitle
+plot "measured.csv" using ($3):(of("glass", 2, of("stress", 4, $5))) with points linetype 2 title "ε = 0.01, glass", \
+     "measured.csv" using ($3):(of("fluid", 2, of("stress", 4, $5))) with points linetype 1 title "ε = -0.01, fluid", \
+     "verdict.csv" using 3:(of("stress", 4, $7)) with points pointtype 4 pointsize 1.3 linecolor rgb "black" title "independent"
 unset logscale
 set format "%g"
 set xlabel "strain"
@@ -23,7 +22,7 @@ plot "start_0.1-growth.csv" using 1:2 with lines linetype 1 title "rate 0.1", \
 set logscale x
 set format x "10^{%L}"
 set xlabel "t in d^2/D_0"
-set ylabel "{/Symbol F}_q(t), q d = 6.6"
+set ylabel "Φ_q(t), q d = 6.6"
 set xrange [1e-4:1e2]
 set yrange [-0.05:1]
 set key bottom left
