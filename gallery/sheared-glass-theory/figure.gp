@@ -7,7 +7,7 @@ set format "10^{%L}"
 set xlabel "shear rate in D_0/d^2"
 set ylabel "stress in kT/d^2"
 set yrange [1e-4:20]
-set key top left
+set key bottom right
 plot "measured.csv" using ($3):(of("glass", 2, of("stress", 4, $5))) with points linetype 2 title "ε = 0.01, glass", \
      "measured.csv" using ($3):(of("fluid", 2, of("stress", 4, $5))) with points linetype 1 title "ε = -0.01, fluid", \
      "verdict.csv" using 3:(of("stress", 4, $7)) with points pointtype 4 pointsize 1.3 linecolor rgb "black" title "independent"

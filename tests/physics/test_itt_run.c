@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs of the theory under shear as a whole: what is asked for is in the results, under the names
+// and axes of a simulation, and the parts agree with each other.
+#include "itt/itt.h"
+
+#include "oz/oz.h"
+
+#include <check.h>
+#include <math.h>
+
+static IttPlan plan_of(double packing_fraction, double rate) {
+    return (IttPlan){.given = true,
+                     .structure = CLOSURE_FUNDAMENTAL,
+                     .packing_fraction = packing_fraction,
+                     .spacing = 0.8,
+                     .last_wave_number = 16,
+                     .shear_rate = rate,
+                     .last_strain = 6,
+                     .block = 32,
+                     .tagged = 1,
+                     .wave_numbers = {1, {6.4}},
+                     .first_time = 1e-3,
+                     .times_per_decade = 20};
+}
+
+static Results *run(const IttPlan *plan) {
+    Itt *itt = NULL;
+    Results *results = NULL;
+    double before = 0;
+    ck_assert_msg(itt_check(plan) == OK, "%s", status_sentence());
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(itt_create(&itt, plan), OK);
+    while (!itt_finished(itt)) {
+        ck_assert_msg(itt_advance(itt, results) == OK, "%s", status_sentence());
+        ck_assert(itt_progress(itt) >= before);
+        before = itt_progress(itt);
+    }
+    ck_assert_double_eq(before, 1);
+    itt_free(itt);
+    ck_assert_ptr_null(results_broken_limit(results));
+    return results;
+}
+
+static double number(const Results *results, const char *name) {
+    const ResultScalar *scalar = results_find_scalar(results, "theory", name);
+    ck_assert_msg(scalar != NULL, "no %s", name);
+    return scalar->values[0];
+}
+
+static const ResultSeries *series(const Results *results, const char *name) {
+    const ResultSeries *found = results_find_series(results, "theory", name);
+    ck_assert_msg(found != NULL, "no %s", name);
+    return found;
+}
+
+START_TEST(a_glass_has_a_maximum_of_the_stress) {
+    const IttPlan plan = plan_of(0.7, 0.1);
+    Results *results = run(&plan);
+    const ResultSeries *stress = series(results, "stress");
+    const size_t strains = stress->axis[1].count;
+    double most = 0, slope = 0;
+    for (size_t i = 0; i < strains; i++) most = fmax(most, stress->values[i]);
+    ck_assert_double_ge(number(results, "largest_stress"), most);
+    ck_assert_double_eq_tol(number(results, "largest_stress") / most, 1, 2e-3);
+    ck_assert_double_eq(number(results, "shear_stress"), stress->values[strains - 1]);
+    ck_assert_double_gt(most, 1.2 * stress->values[strains - 1]);
+    ck_assert_double_eq(number(results, "shear_viscosity"), stress->values[strains - 1] / 0.1);
+    // The stress begins as modulus times strain.
+    slope = stress->values[0] / stress->axis[1].values[0];
+    const ResultSeries *modulus = series(results, "transient_modulus");
+    ck_assert(slope > modulus->values[modulus->axis[0].count / 2] && slope < modulus->values[0]);
+    results_free(results);
+}
+END_TEST
+
+// The picture, its cuts, and what they are less at rest: on the axis q_x = 0 nothing changes.
+START_TEST(pictures_and_cuts_of_the_structure_agree) {
+    const IttPlan plan = plan_of(0.6, 1);
+    Results *results = run(&plan);
+    const ResultSeries *picture = series(results, "planar_structure_factor");
+    const ResultSeries *change = series(results, "planar_structure_factor_change");
+    const ResultSeries *cuts = series(results, "structure_factor_cuts");
+    const size_t side = picture->axis[1].count, half = side / 2, count = cuts->axis[2].count;
+    for (size_t k = 0; k < half && k < count; k++) {
+        ck_assert_double_eq_tol(cuts->values[k], picture->values[(half + k + 1) * side + half],
+                                1e-12);
+        ck_assert_double_eq_tol(cuts->values[count + k],
+                                picture->values[half * side + half + k + 1], 1e-12);
+    }
+    for (size_t j = 0; j < side; j++) ck_assert_double_eq(change->values[half * side + j], 0);
+    for (size_t k = 0; k < side * side; k++)
+        ck_assert_double_eq_tol(change->values[k], change->values[side * side - 1 - k], 1e-12);
+    results_free(results);
+}
+END_TEST
+
+START_TEST(what_is_not_asked_for_is_not_there) {
+    IttPlan plan = plan_of(0.4, 5);
+    plan.tagged = 0;
+    plan.wave_numbers.count = 0;
+    Results *results = run(&plan);
+    const ResultSeries *phi = series(results, "advected_scattering_normalised");
+    ck_assert_double_eq_tol(phi->axis[2].values[0], 6, 1.5); // the peak of S(q)
+    ck_assert_ptr_null(results_find_series(results, "theory", "self_scattering"));
+    ck_assert_ptr_null(results_find_scalar(results, "theory", "diffusion_across_flow"));
+    results_free(results);
+}
+END_TEST
+
+START_TEST(a_separation_is_counted_from_the_transition) {
+    IttPlan plan = plan_of(0, 10);
+    plan.separation = -0.05;
+    plan.last_strain = 0.5;
+    Itt *itt = NULL;
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(itt_create(&itt, &plan), OK);
+    while (!results_find_scalar(results, "theory", "packing_fraction"))
+        ck_assert_int_eq(itt_advance(itt, results), OK);
+    ck_assert_double_eq_tol(number(results, "critical_packing_fraction"), 0.69064, 1e-4);
+    ck_assert_double_eq(number(results, "packing_fraction"),
+                        0.95 * number(results, "critical_packing_fraction"));
+    itt_free(itt);
+    results_free(results);
+}
+END_TEST
+
+int main(void) {
+    Suite *suite = suite_create("runs of itt");
+    TCase *tests = tcase_create("runs");
+    tcase_set_timeout(tests, 120);
+    tcase_add_test(tests, a_glass_has_a_maximum_of_the_stress);
+    tcase_add_test(tests, pictures_and_cuts_of_the_structure_agree);
+    tcase_add_test(tests, what_is_not_asked_for_is_not_there);
+    tcase_add_test(tests, a_separation_is_counted_from_the_transition);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed != 0;
+}
