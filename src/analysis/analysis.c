@@ -84,6 +84,7 @@ static const struct {
     {"contact_stress", .with = derive_contact_stress},
     {"contact_directions", .alone = derive_contact_angles},
     {"stress_wandering", .with = derive_viscosity},
+    {"tracer_passage", .alone = derive_friction},
 };
 
 static Status derive_from(Results *results, size_t index, const System *system) {

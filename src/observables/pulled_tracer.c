@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a pulled tracer goes: its displacement along and across the force against the time since the
+// force came on, and the distance and time of its steady part, of which the friction is made
+// (Garcia Daza, Puertas, Cuetos and Patti: [GD]). A trajectory ends with its time, or where the
+// tracer has gone 3/4 of the edge of the box, before it comes into its own wake.
+//
+// Trajectories that end by distance are short where the tracer was fast: a mean over velocities
+// would be too large. Distance over time, each summed over all trajectories, is not.
+#include "base/memory.h"
+#include "observables/put.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct TracerSettings {
+    int64_t looks;
+    double distance;
+} TracerSettings;
+
+static const Option rows[] = {
+    {.name = "looks",
+     .type = OPTION_INTEGER,
+     .offset = offsetof(TracerSettings, looks),
+     .fallback = 100,
+     .least = 10,
+     .most = 100000,
+     .unit = "",
+     .about = "Looks at the tracer in a trajectory, evenly spaced: at most this many."},
+    {.name = "distance",
+     .type = OPTION_REAL,
+     .offset = offsetof(TracerSettings, distance),
+     .fallback = 0.75,
+     .least = 0.05,
+     .most = 100,
+     .unit = "",
+     .about =
+         "A trajectory ends where the tracer has gone this share of the edge along the force."},
+};
+
+enum { BEGINS = 5, SQUARES = 2 };
+// From when on the tracer is taken to be steady, in parts of the time that it needs at least: all
+// are given, to see from where the velocity does not change.
+static const double BEGIN[BEGINS] = {0, 0.05, 0.1, 0.2, 0.4};
+
+typedef struct Looking {
+    int64_t period, spacing; // ticks: of a trajectory, between looks
+    size_t looks;            // after that at the start
+    double whole;            // looks that a tracer needs at least: without a bath, or all
+} Looking;
+
+typedef struct Tracer {
+    Observer observer;
+    size_t particle;
+    int axis, dimension;
+    Looking looking;
+    double furthest;           // where it ends, in d
+    uint64_t running;          // 0 or 1
+    double origin[3], last;    // unfolded; displacement along at the last look
+    double *count;             // [looks] trajectories seen so far
+    double *along;             // [looks] sum of displacements
+    double *squares;           // [looks][SQUARES] sums of squares along, and across per direction
+    double passage[2][BEGINS]; // distance and time of the steady parts
+} Tracer;
+
+static const TracerSettings *settings_of(const Settings *settings) {
+    return (const TracerSettings *)settings->bytes;
+}
+
+static size_t tracer_species(const Pull *pull, const System *system) {
+    size_t s = 0;
+    while (s + 1 < system->species_count && strcmp(system->species[s].name, pull->species) != 0)
+        s++;
+    return s;
+}
+
+static size_t tracer_particle(const Pull *pull, const System *system) {
+    size_t counts[SPECIES_MOST], particle = 0;
+    system_counts(system, counts);
+    for (size_t s = 0; s < tracer_species(pull, system); s++) particle += counts[s];
+    return particle;
+}
+
+static double free_diffusion(const Pull *pull, const System *system) {
+    const Diffusion free = species_diffusion(&system->species[tracer_species(pull, system)]);
+    return free.parallel / system_reference_diffusion(system);
+}
+
+static double free_velocity(const Pull *pull, const System *system) {
+    const Species *species = &system->species[tracer_species(pull, system)];
+    return free_diffusion(pull, system) * drive_pull_force(pull, species->diameter);
+}
+
+// Looks are to be as fine as the fastest trajectories want it, and some slower ones last.
+static Looking looking_for(const Settings *settings, const System *system, const Clock *clock) {
+    static const int64_t SLOWER = 5;
+    const Pull *pull = &clock->drive->pull;
+    const Box box = system_box(system);
+    const int64_t most = settings_of(settings)->looks;
+    int64_t on;
+    Looking looking;
+    drive_pull_ticks(pull, clock->tick, &looking.period, &on);
+    if (looking.period > clock->ticks) looking.period = on = clock->ticks + 1; // one trajectory
+    const int64_t last = on < looking.period ? on : looking.period - 1;
+    const double way = settings_of(settings)->distance * box.edge[pull->axis];
+    const double fastest = fmin((double)last, way / free_velocity(pull, system) / clock->tick);
+    looking.spacing = (int64_t)ceil(fmin((double)last, (double)SLOWER * fastest) / (double)most);
+    if (looking.spacing < 1) looking.spacing = 1;
+    const int64_t looks = last / looking.spacing, room = 2 * SLOWER * most;
+    looking.looks = (size_t)(looks < room ? looks : room);
+    looking.whole = fastest / (double)looking.spacing;
+    return looking;
+}
+
+static Status check(const Settings *settings, const System *system, const Clock *clock) {
+    if (!clock->drive || !(drive_kinds(clock->drive) & DRIVE_PULL))
+        return status_fail(
+            BAD_DATA, "pulled_tracer: no force is on a tracer in this stage; give it one, as in "
+                      "pull: {species: tracer, peclet: 1}, or leave this out");
+    const Looking looking = looking_for(settings, system, clock);
+    if (looking.whole >= 10) return OK;
+    return status_fail(
+        BAD_DATA,
+        "pulled_tracer: a trajectory may be over in %.2g looks, too few to follow the "
+        "tracer; make the period longer, looks more or the step smaller",
+        looking.whole);
+}
+
+static void discard(Observer *observer) {
+    Tracer *tracer = (Tracer *)observer;
+    memory_free(tracer->count);
+    memory_free(tracer->along);
+    memory_free(tracer->squares);
+    memory_free(tracer);
+}
+
+static Status allocate(Tracer *tracer) {
+    TRY(NEW_ARRAY(tracer->count, tracer->looking.looks));
+    TRY(NEW_ARRAY(tracer->along, tracer->looking.looks));
+    return NEW_ARRAY(tracer->squares, tracer->looking.looks * SQUARES);
+}
+
+static Status create(Observer **out, const Settings *settings, const State *state,
+                     const Clock *clock) {
+    const Pull *pull = &clock->drive->pull;
+    Tracer *tracer = NULL;
+    TRY(NEW(tracer));
+    tracer->observer = (Observer){.kind = &observable_pulled_tracer, .clock = *clock};
+    tracer->particle = tracer_particle(pull, &state->system);
+    tracer->axis = (int)pull->axis;
+    tracer->dimension = state->box.dimension;
+    tracer->furthest = settings_of(settings)->distance * state->box.edge[pull->axis];
+    tracer->looking = looking_for(settings, &state->system, clock);
+    const Status status = allocate(tracer);
+    if (status != OK) {
+        discard(&tracer->observer);
+        return status;
+    }
+    *out = &tracer->observer;
+    return OK;
+}
+
+static int64_t next(const Observer *observer, int64_t after) {
+    const Tracer *tracer = (const Tracer *)observer;
+    if (after < 0) return 0;
+    const int64_t start = after - after % tracer->looking.period,
+                  look = (after - start) / tracer->looking.spacing;
+    const int64_t tick = (size_t)look < tracer->looking.looks
+                             ? start + (look + 1) * tracer->looking.spacing
+                             : start + tracer->looking.period;
+    return tick <= observer->clock.ticks ? tick : INT64_MAX;
+}
+
+static void begin(Tracer *tracer, const State *state) {
+    for (int a = 0; a < tracer->dimension; a++) {
+        tracer->origin[a] = state_unfolded(state, a, tracer->particle);
+    }
+    tracer->last = 0;
+    tracer->running = 1;
+}
+
+static void add(Tracer *tracer, size_t look, double along, double across2) {
+    tracer->count[look]++;
+    tracer->along[look] += along;
+    tracer->squares[look * SQUARES] += along * along;
+    tracer->squares[look * SQUARES + 1] += across2 / (tracer->dimension - 1);
+    for (size_t b = 0; b < BEGINS; b++) {
+        if ((double)look < BEGIN[b] * tracer->looking.whole) continue;
+        tracer->passage[0][b] += along - tracer->last;
+        tracer->passage[1][b] += (double)tracer->looking.spacing * tracer->observer.clock.tick;
+    }
+    tracer->last = along;
+}
+
+static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
+    (void)tally;
+    Tracer *tracer = (Tracer *)observer;
+    const int64_t phase = tick % tracer->looking.period;
+    if (phase == 0) begin(tracer, state);
+    if (phase == 0 || !tracer->running) return OK;
+    double along = 0, across2 = 0;
+    for (int a = 0; a < tracer->dimension; a++) {
+        const double r = state_unfolded(state, a, tracer->particle) - tracer->origin[a];
+        if (a == tracer->axis)
+            along = r;
+        else
+            across2 += r * r;
+    }
+    add(tracer, (size_t)(phase / tracer->looking.spacing) - 1, along, across2);
+    tracer->running = along < tracer->furthest;
+    return OK;
+}
+
+static const uint64_t TRACER_TAG = 0x5452414345523031; // "TRACER01"
+
+static void archive(Observer *observer, Archive *archive) {
+    Tracer *tracer = (Tracer *)observer;
+    archive_tag(archive, TRACER_TAG);
+    archive_u64(archive, &tracer->running, 1);
+    archive_f64(archive, tracer->origin, 3);
+    archive_f64(archive, &tracer->last, 1);
+    archive_f64(archive, tracer->count, tracer->looking.looks);
+    archive_f64(archive, tracer->along, tracer->looking.looks);
+    archive_f64(archive, tracer->squares, tracer->looking.looks * SQUARES);
+    archive_f64(archive, tracer->passage[0], (size_t)2 * BEGINS);
+}
+
+static Status put_curves(const Tracer *tracer, double *values, Results *results, size_t replica) {
+    static const char *const directions[SQUARES] = {"along", "across"};
+    const size_t looks = tracer->looking.looks;
+    double *times = values + SQUARES * looks;
+    for (size_t k = 0; k < looks; k++) {
+        times[k] = (double)(k + 1) * (double)tracer->looking.spacing * tracer->observer.clock.tick;
+        values[k] = tracer->along[k] / tracer->count[k]; // NaN where none came so far
+    }
+    const ResultAxis time = {
+        .name = "time", .unit = tracer->observer.clock.unit, .count = looks, .values = times};
+    ResultSeries shape = {.unit = "d",
+                          .about = "Displacement of the tracer along the force since it came on; "
+                                   "trajectories that have ended by distance are not in it.",
+                          .axes = 1,
+                          .axis = {time}};
+    TRY(observer_put_series(&tracer->observer, "tracer_displacement", &shape, results, replica,
+                            values));
+    for (size_t k = 0; k < looks; k++) {
+        for (size_t d = 0; d < SQUARES; d++) {
+            values[d * looks + k] = tracer->squares[k * SQUARES + d] / tracer->count[k];
+        }
+    }
+    shape = (ResultSeries){
+        .unit = "d^2",
+        .about =
+            "Mean square displacement of the tracer along the force and in a direction across.",
+        .axes = 2,
+        .axis = {{.name = "direction", .unit = "", .count = SQUARES, .labels = directions}, time}};
+    return observer_put_series(&tracer->observer, "tracer_square_displacement", &shape, results,
+                               replica, values);
+}
+
+static Status put_passage(const Tracer *tracer, const System *system, Results *results,
+                          size_t replica) {
+    static const char *const quantities[2] = {"distance", "time"};
+    const Pull *pull = &tracer->observer.clock.drive->pull;
+    const ResultSeries shape = {
+        .unit = "d; d^2/D0",
+        .about = "Distance and time of the tracer, summed over trajectories, from when it is taken "
+                 "to be steady on, in parts of a trajectory.",
+        .axes = 2,
+        .axis = {{.name = "quantity", .unit = "", .count = 2, .labels = quantities},
+                 {.name = "begin", .unit = "", .count = BEGINS, .values = BEGIN}}};
+    TRY(observer_put_scalar(&tracer->observer, "tracer_free_diffusion", "D0",
+                            "Diffusion coefficient of the tracer alone.", results, replica,
+                            free_diffusion(pull, system)));
+    TRY(observer_put_scalar(&tracer->observer, "tracer_free_velocity", "D0/d",
+                            "D F/kT: the velocity of the tracer were there no bath.", results,
+                            replica, free_velocity(pull, system)));
+    return observer_put_series(&tracer->observer, "tracer_passage", &shape, results, replica,
+                               tracer->passage[0]);
+}
+
+static Status write(const Observer *observer, const State *state, Results *results,
+                    size_t replica) {
+    const Tracer *tracer = (const Tracer *)observer;
+    double *values = NULL;
+    TRY(NEW_ARRAY(values, (SQUARES + 1) * tracer->looking.looks));
+    Status status = put_curves(tracer, values, results, replica);
+    if (status == OK) status = put_passage(tracer, &state->system, results, replica);
+    memory_free(values);
+    return status;
+}
+
+static size_t memory(const Settings *settings, const System *system, const Clock *clock) {
+    return sizeof(Tracer) +
+           (2 + SQUARES) * sizeof(double) * looking_for(settings, system, clock).looks;
+}
+
+const ObservableKind observable_pulled_tracer = {
+    .name = "pulled_tracer",
+    .about = "Displacement, velocity and effective friction of a tracer that a constant force "
+             "pulls.",
+    .options = {rows, sizeof rows / sizeof *rows, sizeof(TracerSettings)},
+    .check = check,
+    .create = create,
+    .next = next,
+    .see = see,
+    .archive = archive,
+    .write = write,
+    .free = discard,
+    .memory = memory,
+};
