@@ -183,7 +183,8 @@ static void put_curve(Text *script, const Figure *figure, size_t curve, const ch
 static const char *title_of(const Figure *figure, size_t curve) {
     const bool alone = !figure->line && !figure->level && !(figure->kind && figure->kind->formula);
     const char *title = figure->curve[curve].title;
-    return title[0] || alone ? title : "simulation";
+    if (title[0] || alone) return title;
+    return strcmp(figure->series->stage, "theory") == 0 ? "theory" : "simulation";
 }
 
 // A point of which the error is unknown is drawn without a bar: valid(3) asks. It would be skipped
