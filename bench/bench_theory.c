@@ -7,7 +7,10 @@
 #include "base/memory.h"
 #include "mct/correlators.h"
 #include "mct/critical.h"
+#include "mct/sheared.h"
 #include "oz/oz.h"
+#include "schematic/driven.h"
+#include "schematic/steady.h"
 
 #include <math.h>
 
@@ -119,7 +122,89 @@ static double kernel_seconds(size_t count) {
     return seconds / kernels;
 }
 
+// A point of a flow curve of F12 in the glass, 512 points in a block.
+static double steady_seconds(void) {
+    Steady *steady = NULL;
+    const F12 model = {f12_v1_at(2, 1e-3), 2, 1, 0.15, 100, 0};
+    const double start = bench_user_seconds();
+    if (steady_create(&steady, &(SteadySettings){model, 1e-6, 512}) != OK) fail();
+    while (!steady_has_decayed(steady)) steady_advance(steady);
+    const double seconds = bench_user_seconds() - start;
+    steady_free(steady);
+    return seconds;
+}
+
+// Four cycles of an oscillation of F12, 128 moments each.
+static double driven_seconds(void) {
+    Driven *driven = NULL;
+    const DrivenSettings settings = {.model = {f12_v1_at(2, 1e-3), 2, 1, 0.15, 100, 0},
+                                     .strain = {.amplitude = 0.2, .frequency = 1e-3},
+                                     .moments = 128,
+                                     .periods = 4,
+                                     .block = 128};
+    const double start = bench_user_seconds();
+    if (driven_create(&driven, &settings) != OK) fail();
+    while (!driven_finished(driven)) driven_advance(driven);
+    const double seconds = bench_user_seconds() - start;
+    driven_free(driven);
+    return seconds;
+}
+
+// The same oscillation by the plain double integral on a uniform grid would need a point in 1/20 of
+// the time of the free decay, t of them for every pair of beginning and end: this many seconds for
+// 200 points, and the cube of what there are more.
+static double double_integral_seconds(void) {
+    enum { COUNT = 200 };
+    double *phi = memory_new((COUNT + 1) * (COUNT + 1), sizeof *phi);
+    if (!phi) fail();
+    const double start = bench_user_seconds();
+    for (size_t age = 1; age <= COUNT; age++) {
+        for (size_t s = 0; s + age <= COUNT; s++) {
+            const size_t t = s + age;
+            double sum = 0;
+            for (size_t r = s + 1; r < t; r++) {
+                const double a = phi[t * (COUNT + 1) + r], b = phi[r * (COUNT + 1) + s];
+                sum += (0.8 + 2 * a) * a * (b - phi[(r - 1) * (COUNT + 1) + s]);
+            }
+            phi[t * (COUNT + 1) + s] = (1 - 0.05 * sum) / (1 + 0.05 * (double)age);
+        }
+    }
+    const double seconds = bench_user_seconds() - start;
+    memory_free(phi);
+    return seconds;
+}
+
+// A point of the flow curve of the isotropically sheared model.
+static double sheared_seconds(void) {
+    Grid *grid = NULL;
+    Oz *oz = NULL;
+    Sheared *sheared = NULL;
+    const Structure *structure = NULL;
+    if (grid_create(&grid, 3, 100, 40) != OK) fail();
+    if (oz_create(&oz, CLOSURE_PERCUS_YEVICK, &SPHERES, grid->wave_number, 100) != OK) fail();
+    if (oz_solve(oz, 0.52, &structure) != OK) fail();
+    const double start = bench_user_seconds();
+    if (sheared_create(&sheared, grid, structure, 1e-3, 128) != OK) fail();
+    while (!sheared_has_decayed(sheared))
+        if (sheared_advance(sheared) != OK) fail();
+    const double seconds = bench_user_seconds() - start;
+    sheared_free(sheared);
+    oz_free(oz);
+    grid_free(grid);
+    return seconds;
+}
+
+static void bench_median_of(const char *name, double (*seconds_of)(void)) {
+    double seconds[REPEATS];
+    for (int i = 0; i < REPEATS; i++) seconds[i] = seconds_of();
+    bench_result(name, bench_median(seconds, REPEATS), "s");
+}
+
 int main(void) {
+    bench_median_of("schematic flow point 512", steady_seconds);
+    bench_median_of("schematic four cycles 128", driven_seconds);
+    bench_median_of("schematic plain double integral 200", double_integral_seconds);
+    bench_median_of("mct isotropically sheared spheres 100 to 40", sheared_seconds);
     bench_critical("mct transition discs 203 to 40",
                    &(CriticalSearch){DISCS, CLOSURE_PERCUS_YEVICK, 203, 40, 0.6, 0.74});
     bench_critical("mct transition discs 305 to 59.84",

@@ -6,9 +6,9 @@
 
 #include <math.h>
 
-static const char *const parts[] = {
-    "structure_factor", "glass_form_factors", "critical_point", "exponents",
-    "correlators",      "beta_scaling",       "alpha_master",   NULL};
+static const char *const parts[] = {"structure_factor", "glass_form_factors", "critical_point",
+                                    "exponents",        "correlators",        "beta_scaling",
+                                    "alpha_master",     "flow_curve",         NULL};
 
 static const Option rows[] = {
     {.name = "dimension",
@@ -123,6 +123,40 @@ static const Option rows[] = {
      .unit = "",
      .about = "Points of a block of the time grid, whose spacing then doubles: errors are of "
               "second order in 1/block."},
+    {.name = "beta_scaling.shear",
+     .type = OPTION_REAL,
+     .offset = offsetof(TheoryPlan, beta_shear),
+     .fallback = 0,
+     .least = 0,
+     .most = 1e6,
+     .unit = "",
+     .about = "c (shear rate t_sigma)^2 of the beta-scaling functions under shear; 0: at rest."},
+    {.name = "flow_curve.first",
+     .type = OPTION_REAL,
+     .offset = offsetof(TheoryPlan, first_rate),
+     .fallback = 1e-5,
+     .least = 1e-12,
+     .most = 1e4,
+     .unit = "D0/d^2",
+     .about =
+         "The smallest shear rate of the flow curve, which is that of the isotropically sheared "
+         "model: of the flow only the mean stretching of wave numbers is kept. One species."},
+    {.name = "flow_curve.last",
+     .type = OPTION_REAL,
+     .offset = offsetof(TheoryPlan, last_rate),
+     .fallback = 10,
+     .least = 1e-12,
+     .most = 1e4,
+     .unit = "D0/d^2",
+     .about = "The largest."},
+    {.name = "flow_curve.per_decade",
+     .type = OPTION_INTEGER,
+     .offset = offsetof(TheoryPlan, rates_per_decade),
+     .fallback = 2,
+     .least = 1,
+     .most = 50,
+     .unit = "",
+     .about = "Shear rates per decade."},
 };
 const OptionTable theory_options = {rows, sizeof rows / sizeof *rows, sizeof(TheoryPlan)};
 
@@ -179,6 +213,21 @@ static Status check_fractions(const TheoryPlan *plan) {
     return OK;
 }
 
+static Status check_flow_curve(const TheoryPlan *plan) {
+    if (!wants(plan, THEORY_FLOW_CURVE)) return OK;
+    if (plan->species_count > 1)
+        return status_fail(BAD_DATA, "calculate names flow_curve, which is of one species, not %zu",
+                           plan->species_count);
+    if (plan->packing_fraction == 0 && plan->separation == 0)
+        return status_fail(BAD_DATA,
+                           "calculate names flow_curve, which needs a packing_fraction or a "
+                           "separation");
+    if (plan->first_rate >= plan->last_rate)
+        return status_fail(BAD_DATA, "flow_curve.first = %g is not below last = %g",
+                           plan->first_rate, plan->last_rate);
+    return OK;
+}
+
 Status theory_check(const TheoryPlan *plan) {
     TRY(check_fractions(plan));
     if (plan->calculate == 0) return status_fail(BAD_DATA, "calculate names nothing");
@@ -200,6 +249,7 @@ Status theory_check(const TheoryPlan *plan) {
         return status_fail(BAD_DATA,
                            "calculate names correlators, which need a packing_fraction or "
                            "a separation");
+    TRY(check_flow_curve(plan));
     if (plan->block % 4 != 0)
         return status_fail(BAD_DATA, "correlators.block = %lld is not a multiple of 4",
                            (long long)plan->block);
@@ -221,6 +271,9 @@ double theory_seconds(const TheoryPlan *plan) {
     if (plan->calculate & (1u << THEORY_CRITICAL | 1u << THEORY_EXPONENTS)) evaluations += 4000;
     if (wants(plan, THEORY_CORRELATORS))
         evaluations += 3.5 * (double)plan->block * log2(plan->last_time / 1e-8);
+    if (wants(plan, THEORY_FLOW_CURVE))
+        evaluations += 150 * (double)plan->block * (double)plan->rates_per_decade *
+                       log10(plan->last_rate / plan->first_rate);
     return 0.3 * species + kernel * evaluations;
 }
 

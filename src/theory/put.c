@@ -123,6 +123,14 @@ Status put_curve(Results *results, const char *name, const char *about, const ch
     return results_put_series(results, &shape, 0, values);
 }
 
+Status put_rates(Results *results, const char *name, const char *about, const TheoryPlan *plan,
+                 const double *rate, size_t count, const double *stress) {
+    ResultSeries shape = shape_of(name, plan->dimension == 2 ? "kT/d^2" : "kT/d^3", about);
+    add_axis(&shape,
+             (ResultAxis){.name = "shear_rate", .unit = "D0/d^2", .count = count, .values = rate});
+    return results_put_series(results, &shape, 0, stress);
+}
+
 // [time][line][wave] as [line][wave][time].
 static void turn(const double *kept, size_t times, size_t lines, double *out) {
     for (size_t t = 0; t < times; t++) {

@@ -18,6 +18,9 @@ Status put_number(Results *results, const char *name, const char *unit, const ch
                   double value);
 Status put_curve(Results *results, const char *name, const char *about, const char *unit_of_time,
                  const double *time, size_t count, const double *values);
+// Stresses against shear rates.
+Status put_rates(Results *results, const char *name, const char *about, const TheoryPlan *plan,
+                 const double *rate, size_t count, const double *stress);
 
 // Correlators as they were kept, [time][pair or species][wave number].
 typedef struct Kept {

@@ -8,6 +8,7 @@
 #include "mct/critical.h"
 #include "mct/forms.h"
 #include "mct/grid.h"
+#include "mct/sheared.h"
 #include "oz/oz.h"
 #include "theory/put.h"
 
@@ -30,6 +31,9 @@ struct Theory {
     CriticalPoint *critical;    // NULL: not wanted
     Correlators *correlators;   // while they are being calculated
     Kept kept;
+    Sheared *sheared;           // while it is calculated
+    double *rate, *flow, *peak; // the flow curve so far, and the largest stress on the way
+    size_t rates, rates_most;
     double next_time; // to be kept
     size_t step;      // of the table below
     double share;     // of the step that is done
@@ -171,8 +175,10 @@ static bool wants_beta(const Theory *theory) {
 static Status put_beta(const Theory *theory, Results *results, double sigma, const char *name,
                        const char *about) {
     BetaFunction *beta = NULL;
-    const BetaSettings settings = {
-        .lambda = theory->critical->exponents.lambda, .sigma = sigma, .last = BETA_LAST};
+    const BetaSettings settings = {.lambda = theory->critical->exponents.lambda,
+                                   .sigma = sigma,
+                                   .shear = theory->plan->beta_shear,
+                                   .last = BETA_LAST};
     TRY(beta_create(&beta, &settings));
     size_t count = 0;
     double next = 1e-6;
@@ -368,6 +374,64 @@ static Status solve_master(Theory *theory, Results *results) {
     return status;
 }
 
+// ---- Flow curve of the isotropically sheared model
+// ------------------------------------------------
+
+static bool wants_flow(const Theory *theory) {
+    return wants_state(theory) && wants(theory, THEORY_FLOW_CURVE);
+}
+
+static Status begin_flow(Theory *theory) {
+    const TheoryPlan *plan = theory->plan;
+    const double decades = log10(plan->last_rate / plan->first_rate);
+    const double count = fmax(2, round(decades * (double)plan->rates_per_decade) + 1);
+    theory->rates_most = (size_t)count;
+    TRY(NEW_ARRAY(theory->rate, theory->rates_most));
+    TRY(NEW_ARRAY(theory->flow, theory->rates_most));
+    TRY(NEW_ARRAY(theory->peak, theory->rates_most));
+    for (size_t i = 0; i < theory->rates_most; i++)
+        theory->rate[i] = plan->first_rate * pow(10, decades * (double)i / (count - 1));
+    return OK;
+}
+
+static void end_flow(Theory *theory) {
+    sheared_free(theory->sheared);
+    memory_free(theory->rate);
+    memory_free(theory->flow);
+    memory_free(theory->peak);
+    theory->sheared = NULL;
+    theory->rate = theory->flow = theory->peak = NULL;
+}
+
+static Status put_flow(const Theory *theory, Results *results) {
+    TRY(put_rates(results, "flow_curve",
+                  "Shear stress of steady flow, isotropically sheared model.", theory->plan,
+                  theory->rate, theory->rates, theory->flow));
+    return put_rates(
+        results, "flow_curve_peak",
+        "Largest shear stress after the start of the flow, isotropically sheared model.",
+        theory->plan, theory->rate, theory->rates, theory->peak);
+}
+
+// One rate after the other.
+static Status solve_flow(Theory *theory, Results *results) {
+    if (!theory->rate) TRY(begin_flow(theory));
+    const size_t i = theory->rates;
+    if (!theory->sheared)
+        TRY(sheared_create(&theory->sheared, theory->grid, theory->structure, theory->rate[i],
+                           (size_t)theory->plan->block));
+    for (int k = 0; k < SLICE_STEPS && !sheared_has_decayed(theory->sheared); k++) {
+        TRY(sheared_advance(theory->sheared));
+        theory->peak[i] = fmax(theory->peak[i], sheared_stress(theory->sheared));
+    }
+    if (!sheared_has_decayed(theory->sheared)) return OK;
+    theory->flow[i] = sheared_stress(theory->sheared);
+    sheared_free(theory->sheared);
+    theory->sheared = NULL;
+    theory->share = (double)++theory->rates / (double)theory->rates_most;
+    return theory->rates < theory->rates_most ? OK : put_flow(theory, results);
+}
+
 // ---- The whole ---------------------------------------------------------------------------------
 
 // In this order; a step that takes several slices says its share in theory->share.
@@ -382,6 +446,7 @@ static const struct {
     {"form factors", wants_forms, find_forms, false},
     {"beta scaling", wants_beta, solve_beta, false},
     {"correlators", wants_correlators, solve_correlators, true},
+    {"flow curve", wants_flow, solve_flow, true},
     {"alpha master curve", wants_master, solve_master, true},
 };
 enum { STEPS = sizeof steps / sizeof *steps };
@@ -417,6 +482,7 @@ Status theory_create(Theory **out, const TheoryPlan *plan) {
 void theory_free(Theory *theory) {
     if (!theory) return;
     end_correlators(theory);
+    end_flow(theory);
     critical_free(theory->critical);
     oz_free(theory->oz);
     grid_free(theory->grid);

@@ -26,6 +26,7 @@ typedef enum TheoryPart {
     THEORY_CORRELATORS,
     THEORY_BETA,
     THEORY_MASTER,
+    THEORY_FLOW_CURVE,
     THEORY_PARTS
 } TheoryPart;
 
@@ -40,6 +41,9 @@ typedef struct TheoryPlan {
     OptionReals correlator_wave_numbers;
     double first_time, last_time;
     int64_t times_per_decade, block;
+    double beta_shear;            // c (shear rate t_sigma)^2
+    double first_rate, last_rate; // of the flow curve of the isotropically sheared model
+    int64_t rates_per_decade;
     size_t species_count; // 0: no theory run
     TheorySpecies species[MIXTURE_SPECIES_MOST];
 } TheoryPlan;

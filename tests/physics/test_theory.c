@@ -55,7 +55,7 @@ static const ResultSeries *series(const Results *results, const char *name) {
 }
 
 START_TEST(a_glass_has_all_that_is_asked_for) {
-    TheoryPlan plan = plan_of((1u << THEORY_PARTS) - 1);
+    TheoryPlan plan = plan_of(((1u << THEORY_PARTS) - 1) & ~(1u << THEORY_FLOW_CURVE));
     plan.separation = 0.01;
     plan.correlator_wave_numbers = (OptionReals){2, {6, 7}};
     Results *results = run(&plan);
@@ -126,11 +126,35 @@ START_TEST(a_fluid_diffuses_in_the_end) {
 }
 END_TEST
 
+START_TEST(a_glass_has_a_flow_curve_and_a_maximum_before_it) {
+    TheoryPlan plan = plan_of(1u << THEORY_FLOW_CURVE);
+    plan.species_count = 1;
+    plan.species[0].fraction = 1;
+    plan.packing_fraction = 0.53;
+    plan.first_rate = 1e-4;
+    plan.last_rate = 1;
+    plan.rates_per_decade = 1;
+    Results *results = run(&plan);
+    const ResultSeries *flow = series(results, "flow_curve");
+    const ResultSeries *peak = series(results, "flow_curve_peak");
+    ck_assert_uint_eq(flow->size, 5);
+    ck_assert_double_eq_tol(flow->axis[0].values[4], 1, 1e-12);
+    ck_assert_double_eq_tol(flow->values[0] / flow->values[1], 1, 1e-3); // it yields
+    ck_assert(flow->values[4] > 1.01 * flow->values[0]);
+    for (size_t i = 0; i < flow->size; i++) ck_assert(peak->values[i] > 1.05 * flow->values[i]);
+    results_free(results);
+    plan.species_count = 2;
+    plan.species[0].fraction = 0.4;
+    ck_assert_int_eq(theory_check(&plan), BAD_DATA);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("theory");
     TCase *tests = tcase_create("runs");
     tcase_set_timeout(tests, 120);
     tcase_add_test(tests, a_glass_has_all_that_is_asked_for);
+    tcase_add_test(tests, a_glass_has_a_flow_curve_and_a_maximum_before_it);
     tcase_add_test(tests, the_total_is_the_sum_over_ordered_pairs);
     tcase_add_test(tests, a_fluid_keeps_nothing);
     tcase_add_test(tests, a_fluid_diffuses_in_the_end);
