@@ -21,7 +21,7 @@ static Balls *balls_of(Chain *chain) {
 
 // Contact times this is beyond where the energy of a pair rounds to nothing.
 static double reach_of(bool soft, double exponent) {
-    return soft ? exp2(21 / exponent) * 1.0001 : 1;
+    return soft ? exp2(17 / exponent) * 1.0001 : 1;
 }
 
 static Status check_species(const System *system, const Species *species) {
@@ -89,7 +89,9 @@ static void balls_free(Chain *chain) {
     memory_free(balls->seat);
     memory_free(balls->seated);
     memory_free(balls->coarse_anchor);
+    memory_free(balls->seat_row);
     memory_free(balls->found);
+    memory_free(balls->entered);
     memory_free(balls->ids);
     for (int a = 0; a < 3; a++) {
         memory_free(balls->column[a]);
@@ -105,6 +107,7 @@ static Status allocate(Balls *balls) {
     TRY(NEW_ARRAY(balls->coarse, count));
     TRY(NEW_ARRAY(balls->coarse_anchor, count));
     TRY(NEW_ARRAY(balls->found, count + NEIGHBOURS_AT_A_TIME));
+    TRY(NEW_ARRAY(balls->entered, count + NEIGHBOURS_AT_A_TIME));
     TRY(NEW_ARRAY(balls->radius_single, count));
     for (int a = 0; a < 3 && balls->soft; a++) TRY(NEW_ARRAY(balls->column[a], count));
     if (!balls->settings.gaussian) return OK;

@@ -17,16 +17,17 @@
 enum {
     TRIALS_PER_BLOCK = RNG_BLOCK / 4,
     NEIGHBOURS_AT_A_TIME = 16,
+    NEIGHBOURS_PER_ROOM = 32, // two cache lines
 };
 static const uint32_t STRAYS = 1u << 31;   // in `who`: the trial goes farther than lists reach
-static const double ENERGY_UNITS = 0x1p20; // per kT
-static const double ENERGY_MOST = 0x1p27;  // of a pair, in units: 128 kT
+static const double ENERGY_UNITS = 0x1p16; // per kT
+static const double ENERGY_MOST = 0x1p23;  // of a pair, in units: 128 kT
 
 // One cache line.
 typedef struct Ball {
-    uint32_t place[4];  // fractions of the edges; 0
-    uint32_t anchor[4]; // place when its list was made
-    int32_t image[3];
+    uint32_t place[4];   // fractions of the edges; 0
+    uint32_t anchor[4];  // place when its list was made
+    int32_t image[3];    // with the next one a vector
     uint32_t neighbours; // in its list
     uint32_t species;
     uint32_t cell, seat; // of the anchor
@@ -41,9 +42,12 @@ typedef struct BallsKernel {
     // returns false when there was no memory for a list.
     void (*draw)(Balls *balls, const uint32_t *words, const uint32_t *metropolis);
     bool (*run)(Balls *balls, size_t from, size_t to, MoveTally *moves);
-    // Of `count` ids those whose coarse anchors are so near that they may be in the list of i.
-    size_t (*near)(const Balls *balls, uint32_t i, const uint32_t *ids, size_t count,
-                   uint32_t *near);
+    // Of `count` ids those whose coarse anchors, in `rows`, are within `far` of `own`; and those,
+    // whose anchors are looked up, beyond.
+    size_t (*near)(const Balls *balls, uint64_t own, const uint64_t *rows, const uint32_t *ids,
+                   size_t count, uint32_t *near);
+    size_t (*beyond)(const Balls *balls, uint64_t own, const uint32_t *ids, size_t count,
+                     uint32_t *beyond);
 } BallsKernel;
 extern const BallsKernel balls_kernel_portable, balls_kernel_avx2, balls_kernel_avx512;
 
@@ -60,7 +64,7 @@ struct Balls {
     bool alike;     // equal diameters and equal edges
     int exponent;   // of soft spheres
     double scale;   // of the diameters
-    double unit[3]; // length of a lattice step, in d
+    double unit[4]; // length of a lattice step, in d; 0
     float unit_single[4];
     float step[SPECIES_MOST][4];    // half-width of the displacement, in halves of lattice steps
     double normal[SPECIES_MOST][3]; // its standard deviation, in lattice steps
@@ -83,16 +87,18 @@ struct Balls {
     double skin;    // in d
     double stride;  // longest displacement that is looked up in the lists, in d
     float leash2;   // (skin/2)^2, of how far from its anchor a particle may come, in d^2
-    size_t room;    // of each list, a multiple of NEIGHBOURS_AT_A_TIME
-    uint32_t *list; // [count][room], filled up with a repeated neighbour
+    size_t room;    // of each list, a multiple of NEIGHBOURS_PER_ROOM
+    uint32_t *list; // [count][room], the rest others than itself
     int64_t cells[3];
     size_t cells_most, seats; // of the arrays below; seats a multiple of NEIGHBOURS_AT_A_TIME
     uint32_t *seated;         // [cells_most] particles in each cell
     uint32_t *seat;           // [cells_most][seats] who they are
+    uint64_t *seat_row;       // [cells_most][seats] their coarse anchors
     uint64_t *coarse_anchor;  // [count]
     uint32_t far;             // square of a coarse distance of anchors beyond the range of lists
-    uint32_t unfelt; // the same of places, beyond the range of soft balls before and after a trial
-    uint32_t *found; // [count + NEIGHBOURS_AT_A_TIME] room for a search
+    uint32_t
+        unfelt; // the same of places from the middle of a trial, beyond the range of soft balls
+    uint32_t *found, *entered; // [count + NEIGHBOURS_AT_A_TIME] room for a search
 
     uint64_t block;                                 // whose trials are drawn; UINT64_MAX: none
     uint32_t who[TRIALS_PER_BLOCK + 8];             // particle, and perhaps STRAYS
@@ -124,7 +130,7 @@ bool balls_pull_trial(Balls *balls, int64_t trial, MoveTally *moves);
 // Scaled coarse steps per longest edge: squares of any distance fit 31 bits.
 #define COARSE_PER_EDGE (0.75 * 0x1p16)
 
-static inline uint64_t balls_coarse(const uint32_t place[4]) {
+static inline uint64_t balls_coarse(const uint32_t place[3]) {
     uint64_t coarse = 0;
     for (int a = 0; a < 3; a++) {
         coarse |= (uint64_t)(uint16_t)((place[a] + 0x8000) >> 16) << (16 * a);

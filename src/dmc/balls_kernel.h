@@ -6,6 +6,7 @@
 #include "dmc/balls.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -102,14 +103,19 @@ KERNEL void draw(Balls *balls, const uint32_t *words, const uint32_t *metropolis
 
 // Hard balls.
 
+#if defined(__AVX2__)
+KERNEL uint64_t coarse_of(__m128i place) {
+    const __m128i half = _mm_setr_epi32(0x8000, 0x8000, 0x8000, 0);
+    const __m128i upper = _mm_srli_epi32(_mm_add_epi32(place, half), 16);
+    return (uint64_t)_mm_cvtsi128_si64(_mm_packus_epi32(upper, upper));
+}
+#endif
+
 // Coarse place of a trial, with plus the radius of the particle: the difference to a neighbour's
 // has the sum of the radii.
 KERNEL uint64_t coarse_trial(const bool alike, uint64_t own, const uint32_t to[4]) {
 #if defined(__AVX2__)
-    const __m128i rounded = _mm_add_epi32(_mm_load_si128((const __m128i *)to),
-                                          _mm_setr_epi32(0x8000, 0x8000, 0x8000, 0));
-    const __m128i upper = _mm_srli_epi32(rounded, 16);
-    const uint64_t coarse = (uint64_t)_mm_cvtsi128_si64(_mm_packus_epi32(upper, upper));
+    const uint64_t coarse = coarse_of(_mm_load_si128((const __m128i *)to));
 #else
     const uint64_t coarse = balls_coarse(to);
 #endif
@@ -206,27 +212,29 @@ KERNEL Judged judge(const bool alike, const Balls *balls, uint64_t trial, const 
     return judged;
 }
 
-#else
-
-// Without vectors the coarse distances gain nothing: each neighbour is judged exactly.
-KERNEL Judged judge(const bool alike, const Balls *balls, uint64_t trial, const uint32_t *ids) {
-    (void)ids, (void)trial, (void)balls, (void)alike;
-    return (Judged){0xffff, 0};
-}
-
 #endif
+
+#if defined(__AVX2__)
 
 // Which neighbour of sixteen a bit means: the sums of AVX registers come in blocks of two rows.
 KERNEL size_t neighbour_of_bit(unsigned bit) {
 #if defined(__AVX512F__)
     static const unsigned char order[16] = {0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15};
-    return order[bit];
-#elif defined(__AVX2__)
-    static const unsigned char order[16] = {0, 1, 4, 5, 2, 3, 6, 7, 8, 9, 12, 13, 10, 11, 14, 15};
-    return order[bit];
 #else
-    return bit;
+    static const unsigned char order[16] = {0, 1, 4, 5, 2, 3, 6, 7, 8, 9, 12, 13, 10, 11, 14, 15};
 #endif
+    return order[bit];
+}
+
+// The few that coarse distances leave in doubt.
+static __attribute__((noinline)) bool any_overlaps(const Balls *balls, uint32_t i,
+                                                   const uint32_t to[4], const uint32_t *ids,
+                                                   unsigned bits) {
+    for (; bits; bits &= bits - 1) {
+        const size_t k = neighbour_of_bit((unsigned)__builtin_ctz(bits));
+        if (balls_overlap(balls, i, to, ids[k])) return true;
+    }
+    return false;
 }
 
 KERNEL bool overlaps(const bool alike, const Balls *balls, uint32_t i, const uint32_t to[4],
@@ -235,58 +243,78 @@ KERNEL bool overlaps(const bool alike, const Balls *balls, uint32_t i, const uin
     const uint32_t neighbours = balls->ball[i].neighbours;
     for (size_t n = 0; n < neighbours; n += NEIGHBOURS_AT_A_TIME) {
         const Judged judged = judge(alike, balls, trial, list + n);
-        if (!judged.near) continue;
         if (judged.sure) return true;
-        for (unsigned bits = judged.near; bits; bits &= bits - 1) {
-            const size_t k = neighbour_of_bit((unsigned)__builtin_ctz(bits));
-            if (balls_overlap(balls, i, to, list[n + k])) return true;
+        if (__builtin_expect(judged.near != 0, 0) &&
+            any_overlaps(balls, i, to, list + n, judged.near)) {
+            return true;
         }
     }
     return false;
 }
 
-// Of ids, those whose coarse places, in the table, are not beyond `far` of `own`; the order stays.
-// Room for `count` + 8 ids is needed.
+#else
+
+// Without vectors the coarse distances gain nothing.
+KERNEL bool overlaps(const bool alike, const Balls *balls, uint32_t i, const uint32_t to[4],
+                     uint64_t trial) {
+    (void)alike, (void)trial;
+    const uint32_t *list = balls->list + i * balls->room;
+    for (uint32_t n = 0; n < balls->ball[i].neighbours; n++) {
+        if (balls_overlap(balls, i, to, list[n])) return true;
+    }
+    return false;
+}
+
+#endif
+
+// Of ids, those whose coarse places are within `far` of `own`, or those beyond; the order stays.
+// The places are in rows, beside the ids, or else in a table of all. The same from both of a pair.
+// Room for `count` + 8 is needed.
 
 #if defined(__AVX512F__)
 
-KERNEL size_t near_ids(const Balls *balls, const uint64_t *table, uint64_t own, uint32_t far,
-                       const uint32_t *ids, size_t count, uint32_t *near) {
+KERNEL size_t ids_by_distance(const Balls *balls, bool within, const uint64_t *rows,
+                              const uint64_t *table, uint64_t own, uint32_t far,
+                              const uint32_t *ids, size_t count, uint32_t *found) {
     const __m512i mine = _mm512_set1_epi64((int64_t)own);
     const __m512i scale = _mm512_set1_epi64((int64_t)coarse_scales(balls));
-    size_t found = 0;
+    size_t number = 0;
     for (size_t n = 0; n < count; n += 8) {
         const __m256i eight = _mm256_loadu_si256((const __m256i *)(ids + n));
-        const __m512i rows = _mm512_i32gather_epi64(eight, (const void *)table, 8);
-        const __m512i apart = _mm512_mulhrs_epi16(_mm512_sub_epi16(mine, rows), scale);
+        const __m512i theirs = rows ? _mm512_loadu_si512(rows + n)
+                                    : _mm512_i32gather_epi64(eight, (const void *)table, 8);
+        const __m512i apart =
+            _mm512_mulhrs_epi16(_mm512_abs_epi16(_mm512_sub_epi16(mine, theirs)), scale);
         const __m512i two = _mm512_madd_epi16(apart, apart);
         const __m512i r2 = _mm512_add_epi64(_mm512_srli_epi64(two, 32),
                                             _mm512_and_si512(two, _mm512_set1_epi64(0xffffffff)));
         const __mmask8 real = count - n < 8 ? (__mmask8)((1u << (count - n)) - 1) : 0xff;
-        const __mmask8 bits =
-            _mm512_mask_cmple_epu64_mask(real, r2, _mm512_set1_epi64((int64_t)far));
-        _mm256_mask_compressstoreu_epi32(near + found, bits, eight);
-        found += (size_t)__builtin_popcount(bits);
+        const __mmask8 near = _mm512_cmple_epu64_mask(r2, _mm512_set1_epi64((int64_t)far));
+        const __mmask8 bits = (__mmask8)(real & (within ? near : ~near));
+        _mm256_storeu_si256((__m256i *)(found + number), _mm256_maskz_compress_epi32(bits, eight));
+        number += (size_t)__builtin_popcount(bits);
     }
-    return found;
+    return number;
 }
 
 #else
 
-KERNEL size_t near_ids(const Balls *balls, const uint64_t *table, uint64_t own, uint32_t far,
-                       const uint32_t *ids, size_t count, uint32_t *near) {
-    size_t found = 0;
+KERNEL size_t ids_by_distance(const Balls *balls, bool within, const uint64_t *rows,
+                              const uint64_t *table, uint64_t own, uint32_t far,
+                              const uint32_t *ids, size_t count, uint32_t *found) {
+    size_t number = 0;
     for (size_t n = 0; n < count; n++) {
+        const uint64_t theirs = rows ? rows[n] : table[ids[n]];
         uint32_t r2 = 0;
         for (int a = 0; a < 3; a++) {
-            const int16_t apart = (int16_t)((own >> (16 * a)) - (table[ids[n]] >> (16 * a)));
+            const int32_t apart = abs((int16_t)((own >> (16 * a)) - (theirs >> (16 * a))));
             const int32_t scaled = (apart * balls->coarse_scale[a]) >> 15;
             r2 += (uint32_t)(scaled * scaled);
         }
-        near[found] = ids[n];
-        found += r2 <= far;
+        found[number] = ids[n];
+        number += (r2 <= far) == within;
     }
-    return found;
+    return number;
 }
 
 #endif
@@ -317,31 +345,31 @@ KERNEL __m512i energies(const Balls *balls, __m512 contact2, __m512 r2) {
     return _mm512_cvtps_epi32(_mm512_min_ps(power, _mm512_set1_ps((float)ENERGY_MOST)));
 }
 
-KERNEL int64_t sum_of(__m512i x) {
-    return _mm512_reduce_add_epi64(
-        _mm512_add_epi64(_mm512_cvtepi32_epi64(_mm512_castsi512_si256(x)),
-                         _mm512_cvtepi32_epi64(_mm512_extracti64x4_epi64(x, 1))));
-}
-
-// Lanes without a neighbour see the particle itself: infinite powers cost nothing, tiny ones would.
-KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4],
-                           const uint32_t *list, size_t neighbours) {
+// Of sixteen at most. Lanes without a neighbour hold the particle itself: infinite powers cost
+// nothing, tiny ones would.
+KERNEL int64_t rise_of_sixteen(const Balls *balls, uint32_t i, const uint32_t to[4], __m512i ids,
+                               __mmask16 real) {
     const Ball *ball = &balls->ball[i];
     const __m512 radius = _mm512_set1_ps(balls->radius_single[i]);
+    __m512i at[3];
+    for (int a = 0; a < 3; a++) at[a] = _mm512_i32gather_epi32(ids, balls->column[a], 4);
+    const __m512 contact =
+        balls->alike ? _mm512_add_ps(radius, radius)
+                     : _mm512_add_ps(radius, _mm512_i32gather_ps(ids, balls->radius_single, 4));
+    const __m512 contact2 = _mm512_mul_ps(contact, contact);
+    const __m512i after = energies(balls, contact2, square_of(balls, at, to));
+    const __m512i before = energies(balls, contact2, square_of(balls, at, ball->place));
+    return _mm512_reduce_add_epi32(_mm512_maskz_sub_epi32(real, after, before));
+}
+
+KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4],
+                           const uint32_t *list, size_t neighbours) {
     int64_t rise = 0;
     for (size_t n = 0; n < neighbours; n += 16) {
         const size_t left = neighbours - n;
         const __mmask16 real = left < 16 ? (__mmask16)((1u << left) - 1) : 0xffff;
         const __m512i ids = _mm512_mask_loadu_epi32(_mm512_set1_epi32((int)i), real, list + n);
-        __m512i at[3];
-        for (int a = 0; a < 3; a++) at[a] = _mm512_i32gather_epi32(ids, balls->column[a], 4);
-        const __m512 contact =
-            balls->alike ? _mm512_add_ps(radius, radius)
-                         : _mm512_add_ps(radius, _mm512_i32gather_ps(ids, balls->radius_single, 4));
-        const __m512 contact2 = _mm512_mul_ps(contact, contact);
-        const __m512i after = energies(balls, contact2, square_of(balls, at, to));
-        const __m512i before = energies(balls, contact2, square_of(balls, at, ball->place));
-        rise += sum_of(_mm512_maskz_sub_epi32(real, after, before));
+        rise += rise_of_sixteen(balls, i, to, ids, real);
     }
     return rise;
 }
@@ -371,11 +399,9 @@ KERNEL __m256i energies(const Balls *balls, __m256 contact2, __m256 r2) {
 }
 
 KERNEL int64_t sum_of(__m256i x) {
-    const __m256i four = _mm256_add_epi64(_mm256_cvtepi32_epi64(_mm256_castsi256_si128(x)),
-                                          _mm256_cvtepi32_epi64(_mm256_extracti128_si256(x, 1)));
-    const __m128i two =
-        _mm_add_epi64(_mm256_castsi256_si128(four), _mm256_extracti128_si256(four, 1));
-    return _mm_cvtsi128_si64(two) + _mm_extract_epi64(two, 1);
+    const __m128i four = _mm_add_epi32(_mm256_castsi256_si128(x), _mm256_extracti128_si256(x, 1));
+    const __m128i two = _mm_add_epi32(four, _mm_unpackhi_epi64(four, four));
+    return _mm_cvtsi128_si32(two) + _mm_extract_epi32(two, 1);
 }
 
 KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4],
@@ -417,20 +443,80 @@ KERNEL int64_t energy_rise(const Balls *balls, uint32_t i, const uint32_t to[4],
 
 #endif
 
+// Whoever feels one end of a trial is within reach + half its length of the middle.
+KERNEL uint64_t middle_of(const uint32_t from[4], const uint32_t to[4]) {
+#if defined(__AVX2__)
+    const __m128i start = _mm_load_si128((const __m128i *)from);
+    const __m128i step = _mm_sub_epi32(_mm_load_si128((const __m128i *)to), start);
+    return coarse_of(_mm_add_epi32(start, _mm_srai_epi32(step, 1)));
+#else
+    uint32_t middle[3];
+    for (int a = 0; a < 3; a++) {
+        middle[a] = from[a] + (uint32_t)((int32_t)(to[a] - from[a]) >> 1);
+    }
+    return balls_coarse(middle);
+#endif
+}
+
 // By how much a trial raises the energy: of those that feel it, before or after.
-KERNEL int64_t rise_of(const Balls *balls, uint32_t i, const uint32_t to[4]) {
+KERNEL int64_t rise_by_list(const Balls *balls, uint32_t i, const uint32_t to[4]) {
     const uint32_t *list = balls->list + i * balls->room;
+    const uint64_t middle = middle_of(balls->ball[i].place, to);
     uint32_t near[FELT_AT_A_TIME + NEIGHBOURS_AT_A_TIME];
     int64_t rise = 0;
     for (size_t n = 0; n < balls->ball[i].neighbours; n += FELT_AT_A_TIME) {
         const size_t left = balls->ball[i].neighbours - n;
         const size_t count =
-            near_ids(balls, balls->coarse, balls->coarse[i], balls->unfelt, list + n,
-                     left < FELT_AT_A_TIME ? left : FELT_AT_A_TIME, near);
+            ids_by_distance(balls, true, NULL, balls->coarse, middle, balls->unfelt, list + n,
+                            left < FELT_AT_A_TIME ? left : FELT_AT_A_TIME, near);
         rise += energy_rise(balls, i, to, near, count);
     }
     return rise;
 }
+
+#if defined(__AVX512F__)
+
+// Of sixteen ids, the first `left` of which are neighbours, those that feel the trial come first.
+KERNEL __m512i felt_ids(const Balls *balls, uint64_t middle, const uint32_t *ids, uint32_t left,
+                        size_t *count) {
+    const __m512i order = _mm512_setr_epi32(0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15);
+    const __m512i own = _mm512_set1_epi64((int64_t)middle);
+    const __m512i scale = _mm512_set1_epi64((int64_t)coarse_scales(balls));
+    const __m512i low = _mm512_mulhrs_epi16(_mm512_sub_epi16(own, rows_of(balls, ids)), scale);
+    const __m512i high = _mm512_mulhrs_epi16(_mm512_sub_epi16(own, rows_of(balls, ids + 8)), scale);
+    const __m512i r2 = sums_of(_mm512_madd_epi16(low, low), _mm512_madd_epi16(high, high));
+    const __mmask16 real = _mm512_cmplt_epu32_mask(order, _mm512_set1_epi32((int)left));
+    const __mmask16 felt =
+        _mm512_mask_cmple_epu32_mask(real, r2, _mm512_set1_epi32((int)balls->unfelt));
+    *count = (size_t)__builtin_popcount(felt);
+    return _mm512_maskz_compress_epi32(felt,
+                                       _mm512_permutexvar_epi32(order, _mm512_loadu_si512(ids)));
+}
+
+// Short lists never leave the registers, if no more than sixteen feel the trial.
+KERNEL int64_t rise_of(const Balls *balls, uint32_t i, const uint32_t to[4]) {
+    const uint32_t *list = balls->list + i * balls->room, neighbours = balls->ball[i].neighbours;
+    const uint64_t middle = middle_of(balls->ball[i].place, to);
+    size_t first, second;
+    if (neighbours > NEIGHBOURS_PER_ROOM) return rise_by_list(balls, i, to);
+    const __m512i near = felt_ids(balls, middle, list, neighbours, &first);
+    const uint32_t left = neighbours < 16 ? 0 : neighbours - 16;
+    const __m512i more = felt_ids(balls, middle, list + 16, left, &second);
+    if (first + second > 16) return rise_by_list(balls, i, to);
+    const __mmask16 real = (__mmask16)((1u << (first + second)) - 1);
+    const __mmask16 free = (__mmask16)(real & (0xffffu << first));
+    const __m512i both = _mm512_mask_expand_epi32(near, free, more);
+    const __m512i ids = _mm512_mask_mov_epi32(_mm512_set1_epi32((int)i), real, both);
+    return rise_of_sixteen(balls, i, to, ids, real);
+}
+
+#else
+
+KERNEL int64_t rise_of(const Balls *balls, uint32_t i, const uint32_t to[4]) {
+    return rise_by_list(balls, i, to);
+}
+
+#endif
 
 // One trial.
 
@@ -468,24 +554,63 @@ KERNEL void place_after(const Ball *ball, const int32_t move[4], uint32_t place[
 #endif
 }
 
-KERNEL void count_move(const Balls *balls, const int32_t move[4], MoveTally *moves) {
-    const double x = move[0] * balls->unit[0], y = move[1] * balls->unit[1],
-                 z = move[2] * balls->unit[2];
-    moves->accepted++;
-    moves->parallel += x * x;
-    moves->perpendicular += y * y + z * z;
+// Whether a trial is accepted cannot be foretold: nothing branches on it, so that the processor
+// goes on with the next ones while this one is judged.
+
+#if defined(__AVX2__)
+
+KERNEL void count_move(const Balls *balls, const int32_t move[4], bool accepted, MoveTally *moves) {
+    const __m256d r = _mm256_mul_pd(_mm256_cvtepi32_pd(_mm_load_si128((const __m128i *)move)),
+                                    _mm256_loadu_pd(balls->unit));
+    const __m256d squares = _mm256_mul_pd(r, r); // x, y, z, 0
+    const __m128d z = _mm_unpacklo_pd(_mm_setzero_pd(), _mm256_extractf128_pd(squares, 1));
+    const __m128d both = _mm_add_pd(_mm256_castpd256_pd128(squares), z); // x; y + z
+    const __m128d counted = _mm_and_pd(both, _mm_castsi128_pd(_mm_set1_epi64x(-(int64_t)accepted)));
+    moves->trials++;
+    moves->accepted += accepted;
+    _mm_storeu_pd(&moves->parallel, _mm_add_pd(_mm_loadu_pd(&moves->parallel), counted));
 }
 
-KERNEL void carry_out(const bool soft, Balls *balls, uint32_t i, const uint32_t to[4],
-                      const int32_t move[4], uint64_t trial) {
-    Ball *ball = &balls->ball[i];
-    for (int a = 0; a < 3; a++) {
+// The fourth of the places is always 0 and does not move, and nor does what lies behind the images.
+KERNEL void move_ball(Ball *ball, const uint32_t to[4], const int32_t move[4], bool accepted) {
+    const __m128i from = _mm_load_si128((const __m128i *)ball->place);
+    const __m128i place = _mm_load_si128((const __m128i *)to);
+    const __m128i moved = _mm_load_si128((const __m128i *)move);
+    const __m128i image = _mm_load_si128((const __m128i *)ball->image);
+    const __m128i taken = _mm_set1_epi32(-(int32_t)accepted), flip = _mm_set1_epi32(INT32_MIN);
+    const __m128i below = _mm_cmpgt_epi32(_mm_xor_si128(from, flip), _mm_xor_si128(place, flip));
+    const __m128i crossed = _mm_sub_epi32(_mm_srai_epi32(moved, 31), below);
+    _mm_store_si128((__m128i *)ball->image, _mm_add_epi32(image, _mm_and_si128(crossed, taken)));
+    _mm_store_si128((__m128i *)ball->place, _mm_blendv_epi8(from, place, taken));
+}
+
+#else
+
+KERNEL void count_move(const Balls *balls, const int32_t move[4], bool accepted, MoveTally *moves) {
+    const double x = move[0] * balls->unit[0], y = move[1] * balls->unit[1],
+                 z = move[2] * balls->unit[2];
+    moves->trials++;
+    moves->accepted += accepted;
+    moves->parallel += accepted * (x * x);
+    moves->perpendicular += accepted * (y * y + z * z);
+}
+
+KERNEL void move_ball(Ball *ball, const uint32_t to[4], const int32_t move[4], bool accepted) {
+    for (int a = 0; a < 3 && accepted; a++) {
         ball->image[a] += (to[a] < ball->place[a]) - (move[a] < 0);
         ball->place[a] = to[a];
-        if (soft) balls->column[a][i] = to[a];
     }
-    const uint64_t radius = balls->coarse[i] & 0xffffull << 48;
-    balls->coarse[i] = (trial & ~(0xffffull << 48)) | radius;
+}
+
+#endif
+
+KERNEL void carry_out(const bool soft, Balls *balls, uint32_t i, const uint32_t to[4],
+                      const int32_t move[4], uint64_t trial, bool accepted) {
+    Ball *ball = &balls->ball[i];
+    move_ball(ball, to, move, accepted);
+    for (int a = 0; a < 3 && soft; a++) balls->column[a][i] = ball->place[a];
+    const uint64_t places = ~(0xffffull << 48) & -(uint64_t)accepted;
+    balls->coarse[i] ^= (balls->coarse[i] ^ trial) & places;
 }
 
 KERNEL bool run_trials(const bool soft, const bool alike, Balls *balls, size_t from, size_t to,
@@ -495,24 +620,25 @@ KERNEL bool run_trials(const bool soft, const bool alike, Balls *balls, size_t f
         bool strays = balls->who[t] & STRAYS;
         __builtin_prefetch(&balls->ball[ahead]);
         __builtin_prefetch(balls->list + ahead * balls->room);
+        __builtin_prefetch(balls->list + ahead * balls->room + NEIGHBOURS_AT_A_TIME);
         const Ball *ball = &balls->ball[i];
-        MoveTally *tally = &moves[ball->species];
         _Alignas(16) uint32_t place[4];
         place_after(ball, balls->move[t], place);
         const uint64_t trial = coarse_trial(soft || alike, balls->coarse[i], place);
-        tally->trials++;
-        if (leaves_anchor(balls, ball, place) && !strays) { // look round from where it is
-            if (!balls_refresh(balls, i)) return false;
+        if (__builtin_expect(leaves_anchor(balls, ball, place) && !strays, 0)) {
+            if (!balls_refresh(balls, i)) return false; // look round from where it is
             strays = leaves_anchor(balls, ball, place);
         }
-        if (strays ? !strayed_is_accepted(balls, t, i, place)
-            : soft ? rise_of(balls, i, place) > balls->affordable[t]
-                   : overlaps(alike, balls, i, place, trial)) {
+        const bool accepted = __builtin_expect(strays, 0) ? strayed_is_accepted(balls, t, i, place)
+                              : soft ? rise_of(balls, i, place) <= balls->affordable[t]
+                                     : !overlaps(alike, balls, i, place, trial);
+        if (!soft && !accepted) {
+            moves[ball->species].trials++;
             continue;
         }
-        count_move(balls, balls->move[t], tally);
-        carry_out(soft, balls, i, place, balls->move[t], trial);
-        if (strays && !balls_refresh(balls, i)) return false;
+        count_move(balls, balls->move[t], accepted, &moves[ball->species]);
+        carry_out(soft, balls, i, place, balls->move[t], trial, accepted);
+        if (__builtin_expect(strays, 0) && accepted && !balls_refresh(balls, i)) return false;
     }
     return true;
 }
@@ -530,9 +656,13 @@ KERNEL bool run_block(Balls *balls, size_t from, size_t to, MoveTally *moves) {
     static bool run_here(Balls *balls, size_t from, size_t to, MoveTally *moves) {                 \
         return run_block(balls, from, to, moves);                                                  \
     }                                                                                              \
-    static size_t near_here(const Balls *balls, uint32_t i, const uint32_t *ids, size_t count,     \
-                            uint32_t *near) {                                                      \
-        return near_ids(balls, balls->coarse_anchor, balls->coarse_anchor[i], balls->far, ids,     \
-                        count, near);                                                              \
+    static size_t near_here(const Balls *balls, uint64_t own, const uint64_t *rows,                \
+                            const uint32_t *ids, size_t count, uint32_t *near) {                   \
+        return ids_by_distance(balls, true, rows, NULL, own, balls->far, ids, count, near);        \
     }                                                                                              \
-    const BallsKernel balls_kernel_##name = {draw_here, run_here, near_here};
+    static size_t beyond_here(const Balls *balls, uint64_t own, const uint32_t *ids, size_t count, \
+                              uint32_t *beyond) {                                                  \
+        return ids_by_distance(balls, false, NULL, balls->coarse_anchor, own, balls->far, ids,     \
+                               count, beyond);                                                     \
+    }                                                                                              \
+    const BallsKernel balls_kernel_##name = {draw_here, run_here, near_here, beyond_here};

@@ -11,8 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-static const double SKIN_LEAST = 0.3, SKIN_MOST = 1.6; // in diameters
-static const double SKIN_STEPS = 2.5;                  // between these, in longest steps
+static const double SKIN_LEAST = 0.45, SKIN_MOST = 1.6; // in diameters
+static const double SKIN_STEPS = 0.9, SKIN_FAR = 2.5;   // between these, in longest steps
 static const double WIDER = 1.00001; // rounding of distances and of single precision
 
 static double contact_of(const Balls *balls, uint32_t i, uint32_t j) {
@@ -23,7 +23,8 @@ static double contact_of(const Balls *balls, uint32_t i, uint32_t j) {
 static void choose_skin(Balls *balls) {
     const double longest = balls->settings.gaussian ? 3.7 / sqrt(3) * balls->longest
                                                     : sqrt(balls->dimension) * balls->longest;
-    const double wanted = SKIN_LEAST * balls->largest + SKIN_STEPS * longest;
+    const double wanted =
+        fmax(SKIN_LEAST * balls->largest + SKIN_STEPS * longest, SKIN_FAR * longest);
     balls->skin = fmin(wanted, SKIN_MOST * balls->largest);
     balls->stride = fmin(longest * WIDER, balls->skin / 2);
     const double leash = balls->skin / 2 / WIDER;
@@ -39,33 +40,44 @@ static void choose_far(Balls *balls) {
     const double range =
         (balls->largest * balls->reach + balls->skin) / longest * COARSE_PER_EDGE + 4;
     const double felt =
-        (balls->largest * balls->reach + balls->stride) / longest * COARSE_PER_EDGE + 4;
+        (balls->largest * balls->reach + balls->stride / 2) / longest * COARSE_PER_EDGE + 4;
     balls->far = (uint32_t)fmin(range * range, 0x1p30 * 1.9);
     balls->unfelt = (uint32_t)fmin(felt * felt, 0x1p30 * 1.9);
 }
 
 static Status make_cells(Balls *balls, size_t cells) {
     memory_free(balls->seat);
+    memory_free(balls->seat_row);
     memory_free(balls->seated);
     balls->seat = balls->seated = NULL;
+    balls->seat_row = NULL;
     balls->cells_most = 0;
     if (balls->seats == 0) balls->seats = NEIGHBOURS_AT_A_TIME;
     TRY(NEW_ARRAY(balls->seated, cells));
     TRY(NEW_ARRAY(balls->seat, cells * balls->seats));
+    TRY(NEW_ARRAY(balls->seat_row, cells * balls->seats));
     balls->cells_most = cells;
     return OK;
 }
 
 // Twice as many seats in every cell.
 static Status more_seats(Balls *balls) {
+    const size_t seats = balls->seats;
     uint32_t *seat = NULL;
-    TRY(NEW_ARRAY(seat, balls->cells_most * 2 * balls->seats));
+    uint64_t *row = NULL;
+    TRY(NEW_ARRAY(seat, balls->cells_most * 2 * seats));
+    if (NEW_ARRAY(row, balls->cells_most * 2 * seats) != OK) {
+        memory_free(seat);
+        return NO_MEMORY;
+    }
     for (size_t c = 0; c < balls->cells_most; c++) {
-        memcpy(seat + c * 2 * balls->seats, balls->seat + c * balls->seats,
-               balls->seats * sizeof *seat);
+        memcpy(seat + c * 2 * seats, balls->seat + c * seats, seats * sizeof *seat);
+        memcpy(row + c * 2 * seats, balls->seat_row + c * seats, seats * sizeof *row);
     }
     memory_free(balls->seat);
+    memory_free(balls->seat_row);
     balls->seat = seat;
+    balls->seat_row = row;
     balls->seats *= 2;
     return OK;
 }
@@ -106,6 +118,7 @@ static Status cell_enter(Balls *balls, uint32_t i) {
     ball->seat = balls->seated[ball->cell]++;
     if (ball->seat == balls->seats) TRY(more_seats(balls));
     balls->seat[ball->cell * balls->seats + ball->seat] = i;
+    balls->seat_row[ball->cell * balls->seats + ball->seat] = balls->coarse_anchor[i];
     return OK;
 }
 
@@ -115,29 +128,36 @@ static void cell_leave(Balls *balls, uint32_t i) {
     uint32_t *seat = balls->seat + ball->cell * balls->seats;
     const uint32_t last = seat[--balls->seated[ball->cell]];
     seat[ball->seat] = last;
+    balls->seat_row[ball->cell * balls->seats + ball->seat] = balls->coarse_anchor[last];
     balls->ball[last].seat = ball->seat;
+}
+
+// The cells round that at `home` along an axis, each once; returns how many.
+static int round_home(int64_t home, int64_t cells, int64_t at[3]) {
+    at[0] = home;
+    if (cells == 1) return 1;
+    at[1] = home == 0 ? cells - 1 : home - 1;
+    at[2] = home == cells - 1 ? 0 : home + 1;
+    return 3;
 }
 
 // The cells round `place`, each once; returns how many.
 static int cells_round(const Balls *balls, const uint32_t place[3], int64_t cells[27]) {
-    int64_t home[3], reach[3], at[3];
-    int count = 0;
+    int64_t home[3], at[3][3];
+    int number[3], count = 0;
     cell_at(balls, place, home);
-    for (int a = 0; a < 3; a++) reach[a] = balls->cells[a] > 1;
-    for (int64_t z = -reach[2]; z <= reach[2]; z++) {
-        at[2] = (home[2] + z + balls->cells[2]) % balls->cells[2];
-        for (int64_t y = -reach[1]; y <= reach[1]; y++) {
-            at[1] = (home[1] + y + balls->cells[1]) % balls->cells[1];
-            for (int64_t x = -reach[0]; x <= reach[0]; x++) {
-                at[0] = (home[0] + x + balls->cells[0]) % balls->cells[0];
-                cells[count++] = cell_index(balls, at);
-            }
+    for (int a = 0; a < 3; a++) number[a] = round_home(home[a], balls->cells[a], at[a]);
+    for (int z = 0; z < number[2]; z++) {
+        for (int y = 0; y < number[1]; y++) {
+            const int64_t row = (at[2][z] * balls->cells[1] + at[1][y]) * balls->cells[0];
+            for (int x = 0; x < number[0]; x++) cells[count++] = row + at[0][x];
         }
     }
     return count;
 }
 
-// The rule of who is in whose list; the same from both.
+// Who is in whose list; the same from both. Balls that are all alike are by the coarse distance of
+// their anchors, which never leaves out who belongs: it alone judges eight at a time.
 static bool belong(const Balls *balls, uint32_t i, const uint32_t anchor[4], uint32_t j) {
     const double range = contact_of(balls, i, j) + balls->skin;
     return balls_distance2(balls, anchor, balls->ball[j].anchor) < range * range;
@@ -149,36 +169,50 @@ static size_t search(const Balls *balls, uint32_t i) {
     const int number = cells_round(balls, balls->ball[i].anchor, cells);
     size_t near = 0, count = 0;
     for (int c = 0; c < number; c++) {
-        near += balls->kernel->near(balls, i, balls->seat + (size_t)cells[c] * balls->seats,
-                                    balls->seated[cells[c]], balls->found + near);
+        const size_t first = (size_t)cells[c] * balls->seats;
+        near +=
+            balls->kernel->near(balls, balls->coarse_anchor[i], balls->seat_row + first,
+                                balls->seat + first, balls->seated[cells[c]], balls->found + near);
     }
     for (size_t n = 0; n < near; n++) {
         const uint32_t j = balls->found[n];
         balls->found[count] = j;
-        count += j != i && belong(balls, i, balls->ball[i].anchor, j);
+        count += j != i && (balls->alike || belong(balls, i, balls->ball[i].anchor, j));
     }
     return count;
+}
+
+// Of `ids` those who do not belong in the list of i if its anchor is there, into `others`.
+static size_t outside(const Balls *balls, uint32_t i, const uint32_t anchor[4], const uint32_t *ids,
+                      size_t count, uint32_t *others) {
+    size_t number = 0;
+    if (balls->alike) {
+        return balls->kernel->beyond(balls, balls_coarse(anchor), ids, count, others);
+    }
+    for (size_t n = 0; n < count; n++) {
+        others[number] = ids[n];
+        number += !belong(balls, i, anchor, ids[n]);
+    }
+    return number;
 }
 
 static uint32_t *list_of(const Balls *balls, uint32_t i) {
     return balls->list + i * balls->room;
 }
 
-// Fills the rest of the last block with a neighbour: seen twice, it overlaps as before.
-static void fill_up(Balls *balls, uint32_t i) {
-    uint32_t *list = list_of(balls, i);
-    for (size_t n = balls->ball[i].neighbours; n % NEIGHBOURS_AT_A_TIME; n++) list[n] = list[0];
-}
-
 // Longer lists for all.
 static Status make_room(Balls *balls, size_t wanted) {
     if (wanted <= balls->room) return OK;
     const size_t room =
-        (wanted + NEIGHBOURS_AT_A_TIME - 1) / NEIGHBOURS_AT_A_TIME * NEIGHBOURS_AT_A_TIME;
+        (wanted + NEIGHBOURS_PER_ROOM - 1) / NEIGHBOURS_PER_ROOM * NEIGHBOURS_PER_ROOM;
     uint32_t *list = NULL;
     TRY(NEW_ARRAY(list, balls->count * room));
-    for (uint32_t i = 0; balls->list && i < balls->count; i++) {
-        memcpy(list + i * room, list_of(balls, i), balls->room * sizeof *list);
+    for (uint32_t i = 0; i < balls->count; i++) {
+        // A particle that is no neighbour does no harm there, as the particle itself would.
+        for (size_t n = 0; n < room; n++) list[i * room + n] = i == 0 && balls->count > 1;
+        if (balls->list) {
+            memcpy(list + i * room, list_of(balls, i), balls->room * sizeof *list);
+        }
     }
     memory_free(balls->list);
     balls->list = list;
@@ -187,10 +221,10 @@ static Status make_room(Balls *balls, size_t wanted) {
 }
 
 static Status enter_list(Balls *balls, uint32_t of, uint32_t i) {
-    Ball *ball = &balls->ball[of];
-    TRY(make_room(balls, ball->neighbours + 1));
-    list_of(balls, of)[ball->neighbours++] = i;
-    fill_up(balls, of);
+    const size_t count = balls->ball[of].neighbours;
+    TRY(make_room(balls, count + 1));
+    list_of(balls, of)[count] = i;
+    balls->ball[of].neighbours++;
     return OK;
 }
 
@@ -198,33 +232,30 @@ static void leave_list(Balls *balls, uint32_t of, uint32_t i) {
     uint32_t *list = list_of(balls, of), n = 0;
     while (list[n] != i) n++;
     list[n] = list[--balls->ball[of].neighbours];
-    fill_up(balls, of);
 }
 
 static Status take_found(Balls *balls, uint32_t i, size_t count) {
     TRY(make_room(balls, count));
     memcpy(list_of(balls, i), balls->found, count * sizeof *balls->found);
     balls->ball[i].neighbours = (uint32_t)count;
-    fill_up(balls, i);
     return OK;
 }
 
 bool balls_refresh(Balls *balls, uint32_t i) {
-    Ball *ball = &balls->ball[i];
+    const Ball *ball = &balls->ball[i];
     uint32_t before[4];
     memcpy(before, ball->anchor, sizeof before);
-    for (uint32_t n = 0; n < ball->neighbours; n++) {
-        const uint32_t j = list_of(balls, i)[n];
-        if (!belong(balls, i, ball->place, j)) leave_list(balls, j, i);
-    }
+    const size_t left =
+        outside(balls, i, ball->place, list_of(balls, i), ball->neighbours, balls->found);
+    for (size_t n = 0; n < left; n++) leave_list(balls, balls->found[n], i);
     cell_leave(balls, i);
     if (cell_enter(balls, i) != OK) return false;
     balls->rebuilds++;
     const size_t count = search(balls, i);
     if (take_found(balls, i, count) != OK) return false;
-    for (size_t n = 0; n < count; n++) {
-        const uint32_t j = balls->found[n];
-        if (!belong(balls, i, before, j) && enter_list(balls, j, i) != OK) return false;
+    const size_t entered = outside(balls, i, before, balls->found, count, balls->entered);
+    for (size_t n = 0; n < entered; n++) {
+        if (enter_list(balls, balls->entered[n], i) != OK) return false;
     }
     return true;
 }

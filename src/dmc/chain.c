@@ -47,11 +47,11 @@ size_t chain_memory(const System *system) {
 }
 
 double chain_seconds_per_trial(const System *system) {
-    static const double seconds[SHAPES] = {[SHAPE_DISC] = 12e-9,
-                                           [SHAPE_SPHERE] = 12e-9,
-                                           [SHAPE_SPHEROCYLINDER] = 150e-9,
-                                           [SHAPE_PLATELET] = 300e-9,
-                                           [SHAPE_SOFT_SPHERE] = 30e-9};
+    static const double seconds[SHAPES] = {[SHAPE_DISC] = 16e-9,
+                                           [SHAPE_SPHERE] = 16e-9,
+                                           [SHAPE_SPHEROCYLINDER] = 110e-9,
+                                           [SHAPE_PLATELET] = 200e-9,
+                                           [SHAPE_SOFT_SPHERE] = 60e-9};
     double sum = 0;
     for (size_t s = 0; s < system->species_count; s++) {
         sum += system->species[s].fraction * seconds[system->species[s].shape];

@@ -15,8 +15,8 @@
 
 enum { TRIALS_PER_BLOCK = RNG_BLOCK / 4 };
 static const uint64_t METROPOLIS_BLOCKS = 1ull << 63;
-static const double ENERGY_UNITS = 0x1p20; // per kT
-static const double ENERGY_MOST = 0x1p27;  // of a pair, in units: 128 kT
+static const double ENERGY_UNITS = 0x1p16; // per kT
+static const double ENERGY_MOST = 0x1p23;  // of a pair, in units: 128 kT
 static const double DEEPEST_NUDGED = 1e-6; // overlap that rounding of positions may explain
 static const int NUDGES_MOST = 1000;       // sweeps over all particles
 
@@ -161,7 +161,7 @@ static void choose_cells(Balls *balls) {
     const double room = box_volume(&state->box) / (double)state->count;
     double largest = 0;
     for (size_t i = 0; i < state->count; i++) largest = fmax(largest, state->diameter[i]);
-    balls->reach = balls->soft ? largest * exp2(21.0 / balls->exponent) * 1.001 : largest;
+    balls->reach = balls->soft ? largest * exp2(17.0 / balls->exponent) * 1.001 : largest;
     const double width =
         fmax(balls->reach, state->box.dimension == 2 ? sqrt(room) : cbrt(room)) * 1.0001;
     for (int a = 0; a < 3; a++) {
