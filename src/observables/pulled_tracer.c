@@ -8,9 +8,9 @@
 // would be too large. Distance over time, each summed over all trajectories, is not.
 #include "base/memory.h"
 #include "observables/put.h"
+#include "observables/tracer.h"
 
 #include <math.h>
-#include <string.h>
 
 typedef struct TracerSettings {
     int64_t looks;
@@ -64,20 +64,6 @@ typedef struct Tracer {
 
 static const TracerSettings *settings_of(const Settings *settings) {
     return (const TracerSettings *)settings->bytes;
-}
-
-static size_t tracer_species(const Pull *pull, const System *system) {
-    size_t s = 0;
-    while (s + 1 < system->species_count && strcmp(system->species[s].name, pull->species) != 0)
-        s++;
-    return s;
-}
-
-static size_t tracer_particle(const Pull *pull, const System *system) {
-    size_t counts[SPECIES_MOST], particle = 0;
-    system_counts(system, counts);
-    for (size_t s = 0; s < tracer_species(pull, system); s++) particle += counts[s];
-    return particle;
 }
 
 static double free_diffusion(const Pull *pull, const System *system) {

@@ -59,8 +59,46 @@ START_TEST(friction_is_that_of_event_driven_dynamics) {
 }
 END_TEST
 
+// Without force it is as crowded in front as behind: g(d) = (1 - phi/2)/(1 - phi)^3 = 1.7578 of
+// Carnahan and Starling, less what g(r) falls by within the shell of 0.05 d, some 3 %.
+START_TEST(nothing_is_in_front_without_a_force) {
+    Plan *plan = pulled_plan(0.2, 0, 0.05, 8, 1);
+    plan->stages[1].drive.pull.period = plan->stages[1].drive.pull.rest = 0;
+    Settings *settings = observe(plan, &observable_tracer_surroundings);
+    set_number(settings, &observable_tracer_surroundings.options, "looks", 4000);
+    Results *results = simulate(plan);
+    const Estimate front = measured(results, "contact_density_front");
+    const Estimate behind = measured(results, "contact_density_behind");
+    const Estimate wake = measured(results, "wake_length");
+    expect_within("in front", front, 1.70, 0.05, 4, 0.15);
+    expect_within("behind", behind, 1.70, 0.05, 4, 0.15);
+    printf("wake %.3f(%.3f) d\n", wake.value, wake.error);
+    ck_assert_double_lt(fabs(wake.value), 0.03 + 4 * wake.error);
+    results_free(results);
+}
+END_TEST
+
+// Pushed through, it has a crowd in front and nothing behind.
+START_TEST(a_strong_force_leaves_a_wake) {
+    Plan *plan = pulled_plan(0.2, 30, 0.02, 0.4, 5);
+    observe(plan, &observable_tracer_surroundings);
+    Results *results = simulate(plan);
+    const Estimate front = measured(results, "contact_density_front");
+    const Estimate behind = measured(results, "contact_density_behind");
+    const Estimate wake = measured(results, "wake_length");
+    printf("in front %.2f(%.2f), behind %.3f(%.3f), wake %.2f(%.2f) d\n", front.value, front.error,
+           behind.value, behind.error, wake.value, wake.error);
+    ck_assert_double_gt(front.value - 4 * front.error, 2 * 1.7578);
+    ck_assert_double_lt(behind.value + 4 * behind.error, 0.5);
+    ck_assert_double_gt(wake.value - 4 * wake.error, 0.1);
+    results_free(results);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("a pulled tracer");
     ADD_CASE(suite, friction_is_that_of_event_driven_dynamics, 2);
+    ADD_CASE(suite, nothing_is_in_front_without_a_force, 1);
+    ADD_CASE(suite, a_strong_force_leaves_a_wake, 1);
     return run_suite(suite) ? EXIT_FAILURE : EXIT_SUCCESS;
 }
