@@ -7,8 +7,8 @@ const char *const stress_names[STRESSES_MOST] = {
 const char *const stress_abouts[STRESSES_MOST] = {
     "sigma_xy from the momentum exchanged in collisions, positive where it resists the flow.",
     "sigma_xx - sigma_yy from the momentum exchanged in collisions.",
-    "Mean of the normal pressures from the momentum exchanged in collisions, kinetic part "
-    "included.",
+    ("Mean of the normal pressures from the momentum exchanged in collisions, kinetic part "
+     "included."),
     "sigma_yy - sigma_zz from the momentum exchanged in collisions."};
 
 const char *stress_unit(int dimension) {
