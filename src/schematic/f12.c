@@ -37,6 +37,12 @@ Status f12_exponents(const F12 *model, Exponents *exponents) {
     return exponents_of(1 / sqrt(model->v2), exponents);
 }
 
+double f12_shear_coefficient(const F12 *model) {
+    const F12 critical = {.v1 = f12_critical_v1(model->v2), .v2 = model->v2};
+    const double f = f12_plateau(&critical), rest = (1 - f) * model->critical_strain;
+    return 2 * f / (rest * rest);
+}
+
 double f12_coupling(const F12 *model, double phi) {
     return (model->v1 + model->v2 * phi) * phi;
 }

@@ -30,6 +30,12 @@ double f12_plateau(const F12 *model);
 // lambda = 1/sqrt(v2) and what follows from it; BAD_DATA where the plateau grows from 0.
 Status f12_exponents(const F12 *model, Exponents *exponents);
 
+// c of the beta-scaling equation under shear, sigma - c (rate t)^2 + lambda G^2 = d/dt int G G
+// (Weysser, thesis, eq. 5.42): near the plateau h^2 = 1 - 2 (strain/gamma_c)^2 takes as much from
+// the kernel as a change of sigma, hence c = 2 f_c/((1 - f_c)^2 gamma_c^2). 0 where the plateau
+// grows from 0.
+double f12_shear_coefficient(const F12 *model);
+
 double f12_coupling(const F12 *model, double phi);        // v1 Phi + v2 Phi^2
 double f12_strain_decay(const F12 *model, double strain); // h = 1/(1 + (strain/gamma_c)^2)
 // What a strain leaves of the modulus: v_sigma, or, with softening g, v_sigma (1 - x^2) exp(-x^2)

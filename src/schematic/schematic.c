@@ -57,6 +57,10 @@ static Status put_exponents(const Schematic *s, Results *results) {
     TRY(put_scalar(results, "exponent_a", "", "Critical exponent a: G -> (t/t0)^-a.", exponents.a));
     TRY(put_scalar(results, "exponent_b", "", "Von Schweidler exponent b: G -> -B (t/t_sigma)^b.",
                    exponents.b));
+    TRY(put_scalar(
+        results, "shear_coefficient", "",
+        "c of the beta-scaling equation sigma - c (rate t)^2 + lambda G^2 = d/dt int GG.",
+        f12_shear_coefficient(&s->model)));
     return put_scalar(results, "exponent_gamma", "",
                       "Exponent gamma = 1/(2 a) + 1/(2 b) of the time of the final decay.",
                       exponents.gamma);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The schematic model F12: exact results at rest, the flow curve under steady shear, and shear that
 // varies, against the plain double integral.
+#include "mct/beta.h"
 #include "schematic/driven.h"
 #include "schematic/steady.h"
 
@@ -144,6 +145,55 @@ START_TEST(the_yield_stress_is_that_of_the_thesis) {
     ck_assert_double_eq_tol(flow_stress(&model, 1e-10, 512), 0.276292, 1e-6);
     ck_assert_double_eq_tol(flow_stress(&model, 1e-10, 128), 0.276300, 1e-6);
     ck_assert_double_eq_tol(flow_stress(&model, 1e-13, 512), flow_stress(&model, 1e-14, 512), 1e-7);
+}
+END_TEST
+
+// t0 of the critical decay, Phi = f_c + (1 - f_c)^2 (t/t0)^-a at long times.
+static double critical_time(double a) {
+    Steady *steady = NULL;
+    const F12 model = f12_at(0);
+    const double f = f12_plateau(&model);
+    ck_assert_int_eq(steady_create(&steady, &(SteadySettings){.model = model, .block = 512}), OK);
+    while (steady_time(steady) < 1e12) steady_advance(steady);
+    const double g = (steady_correlator(steady) - f) / pow(1 - f, 2);
+    const double time = steady_time(steady) * pow(g, 1 / a);
+    steady_free(steady);
+    return time;
+}
+
+// Near the plateau the model obeys the beta-scaling equation with shear, which is solved elsewhere
+// and by another grid, up to the next order in G: nothing is fitted.
+START_TEST(shear_near_the_plateau_is_beta_scaling) {
+    static const double RATE = 1e-12;
+    Exponents exponents;
+    const F12 critical = f12_at(0);
+    const double f = f12_plateau(&critical);
+    ck_assert_int_eq(f12_exponents(&critical, &exponents), OK);
+    const double t0 = critical_time(exponents.a);
+    for (double separation = -1e-5; separation < 2e-5; separation += 1e-5) {
+        const F12 model = f12_at(separation);
+        const BetaSettings scaling = {.lambda = exponents.lambda,
+                                      .sigma = separation,
+                                      .shear = f12_shear_coefficient(&model) * pow(RATE * t0, 2),
+                                      .last = 1e12};
+        BetaFunction *beta = NULL;
+        Steady *steady = NULL;
+        ck_assert_int_eq(beta_create(&beta, &scaling), OK);
+        ck_assert_int_eq(steady_create(&steady, &(SteadySettings){model, RATE, 1024}), OK);
+        double next = 1e6;
+        for (size_t i = 0; next < 5e9; steady_advance(steady)) {
+            const double time = steady_time(steady) / t0;
+            if (time * t0 < next) continue;
+            next *= 2;
+            while (beta->time[i + 1] < time) i++;
+            const double part = (time - beta->time[i]) / (beta->time[i + 1] - beta->time[i]);
+            const double g = beta->value[i] + part * (beta->value[i + 1] - beta->value[i]);
+            ck_assert_double_eq_tol((steady_correlator(steady) - f) / pow(1 - f, 2), g,
+                                    2 * g * g + 3 * fabs(separation) + 3e-6);
+        }
+        steady_free(steady);
+        beta_free(beta);
+    }
 }
 END_TEST
 
@@ -359,6 +409,7 @@ int main(void) {
     tcase_add_test(rest, a_glass_stays_at_its_plateau);
     tcase_add_test(flow, the_flow_curve_of_a_glass_is_known);
     tcase_add_test(flow, the_yield_stress_is_that_of_the_thesis);
+    tcase_add_test(flow, shear_near_the_plateau_is_beta_scaling);
     tcase_add_test(flow, a_fluid_is_newtonian_at_small_rates);
     tcase_add_test(flow, the_stress_overshoots_where_the_modulus_softens);
     TCase *varying = tcase_create("under shear that varies");
