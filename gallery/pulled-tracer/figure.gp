@@ -2,7 +2,8 @@
 # independent and published values.
 load "style.gp"
 set xlabel "step in d"
-set ylabel "{/Symbol g}_{eff}/{/Symbol g}_0"
+set ylabel "γ_{eff} / γ_0"
+set encoding utf8
 set xrange [-0.004:0.07]
 set yrange [0.8:4]
 set key top right
@@ -13,8 +14,10 @@ $known << END
 0,2.3,0.1
 END
 names = "0.05_5 0.2_20 0.38_5 0.38_20"
+phi(i) = word("0.05 0.2 0.38 0.38", i)
+peclet(i) = word("5 20 5 20", i)
 plot for [i = 1:4] "measured.csv" using 3:(of("friction", 4, of(word(names, i), 2, $5))):6 \
-         with yerrorlines linetype i title word(names, i), \
+         with yerrorlines linetype i title "φ = ".phi(i).", Pe = ".peclet(i), \
      for [i = 1:4] "verdict.csv" using (0):(of(word(names, i)."@0", 1, $5)):6 \
          with yerrorbars linetype i pointtype 6 notitle, \
      $known using 1:2:3 with yerrorbars linecolor rgb "black" pointtype 4 pointsize 0.6 title "known"
