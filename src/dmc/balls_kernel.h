@@ -297,6 +297,35 @@ KERNEL size_t ids_by_distance(const Balls *balls, bool within, const uint64_t *r
     return number;
 }
 
+#elif defined(__AVX2__)
+
+KERNEL size_t ids_by_distance(const Balls *balls, bool within, const uint64_t *rows,
+                              const uint64_t *table, uint64_t own, uint32_t far,
+                              const uint32_t *ids, size_t count, uint32_t *found) {
+    const __m256i mine = _mm256_set1_epi64x((int64_t)own);
+    const __m256i scale = _mm256_set1_epi64x((int64_t)coarse_scales(balls));
+    size_t number = 0;
+    for (size_t n = 0; n < count; n += 4) {
+        const __m128i four = _mm_loadu_si128((const __m128i *)(ids + n));
+        const __m256i theirs = rows ? _mm256_loadu_si256((const __m256i *)(rows + n))
+                                    : _mm256_i32gather_epi64((const void *)table, four, 8);
+        const __m256i apart =
+            _mm256_mulhrs_epi16(_mm256_abs_epi16(_mm256_sub_epi16(mine, theirs)), scale);
+        const __m256i two = _mm256_madd_epi16(apart, apart);
+        const __m256i r2 = _mm256_add_epi64(_mm256_srli_epi64(two, 32),
+                                            _mm256_and_si256(two, _mm256_set1_epi64x(0xffffffff)));
+        const __m256i beyond = _mm256_cmpgt_epi64(r2, _mm256_set1_epi64x(far));
+        const unsigned others = (unsigned)_mm256_movemask_pd(_mm256_castsi256_pd(beyond));
+        const unsigned real = count - n < 4 ? (1u << (count - n)) - 1 : 15;
+        const unsigned bits = real & (within ? ~others : others);
+        for (unsigned k = 0; k < 4; k++) {
+            found[number] = ids[n + k];
+            number += bits >> k & 1;
+        }
+    }
+    return number;
+}
+
 #else
 
 KERNEL size_t ids_by_distance(const Balls *balls, bool within, const uint64_t *rows,
@@ -493,26 +522,62 @@ KERNEL __m512i felt_ids(const Balls *balls, uint64_t middle, const uint32_t *ids
                                        _mm512_permutexvar_epi32(order, _mm512_loadu_si512(ids)));
 }
 
-// Short lists never leave the registers, if no more than sixteen feel the trial.
-KERNEL int64_t rise_of(const Balls *balls, uint32_t i, const uint32_t to[4]) {
+// Who feels a trial, in a register; `overflow`: more than sixteen, or the list is long.
+typedef struct Felt {
+    uint64_t middle;
+    __m512i ids;
+    __mmask16 real;
+    bool overflow;
+} Felt;
+
+KERNEL Felt felt_by(const Balls *balls, uint32_t i, const uint32_t to[4]) {
     const uint32_t *list = balls->list + i * balls->room, neighbours = balls->ball[i].neighbours;
     const uint64_t middle = middle_of(balls->ball[i].place, to);
-    size_t first, second;
-    if (neighbours > NEIGHBOURS_PER_ROOM) return rise_by_list(balls, i, to);
-    const __m512i near = felt_ids(balls, middle, list, neighbours, &first);
     const uint32_t left = neighbours < 16 ? 0 : neighbours - 16;
+    size_t first, second;
+    const __m512i near = felt_ids(balls, middle, list, neighbours, &first);
     const __m512i more = felt_ids(balls, middle, list + 16, left, &second);
-    if (first + second > 16) return rise_by_list(balls, i, to);
     const __mmask16 real = (__mmask16)((1u << (first + second)) - 1);
     const __mmask16 free = (__mmask16)(real & (0xffffu << first));
     const __m512i both = _mm512_mask_expand_epi32(near, free, more);
-    const __m512i ids = _mm512_mask_mov_epi32(_mm512_set1_epi32((int)i), real, both);
-    return rise_of_sixteen(balls, i, to, ids, real);
+    return (Felt){middle, _mm512_mask_mov_epi32(_mm512_set1_epi32((int)i), real, both), real,
+                  neighbours > NEIGHBOURS_PER_ROOM || first + second > 16};
+}
+
+// May a particle that has just moved be among those who feel the trial, or be the one that makes
+// it?
+KERNEL bool is_felt(const Balls *balls, uint32_t i, const Felt *felt) {
+    const __m128i apart =
+        _mm_mulhrs_epi16(_mm_sub_epi16(_mm_cvtsi64_si128((int64_t)felt->middle),
+                                       _mm_cvtsi64_si128((int64_t)balls->coarse[i])),
+                         _mm_cvtsi64_si128((int64_t)coarse_scales(balls)));
+    const __m128i two = _mm_madd_epi16(apart, apart);
+    return (uint32_t)_mm_cvtsi128_si32(two) + (uint32_t)_mm_extract_epi32(two, 1) <= balls->unfelt;
+}
+
+KERNEL int64_t rise_of(const Balls *balls, uint32_t i, const uint32_t to[4], const Felt *felt) {
+    if (felt->overflow) return rise_by_list(balls, i, to);
+    return rise_of_sixteen(balls, i, to, felt->ids, felt->real);
 }
 
 #else
 
-KERNEL int64_t rise_of(const Balls *balls, uint32_t i, const uint32_t to[4]) {
+typedef struct Felt {
+    char none;
+} Felt;
+
+KERNEL Felt felt_by(const Balls *balls, uint32_t i, const uint32_t to[4]) {
+    (void)balls, (void)i, (void)to;
+    return (Felt){0};
+}
+
+KERNEL bool is_felt(const Balls *balls, uint32_t i, const Felt *felt) {
+    (void)balls, (void)i, (void)felt;
+    return false;
+}
+
+KERNEL int64_t rise_of(const Balls *balls, uint32_t i, const uint32_t to[4], const Felt *felt) {
+    (void)felt;
     return rise_by_list(balls, i, to);
 }
 
@@ -613,8 +678,20 @@ KERNEL void carry_out(const bool soft, Balls *balls, uint32_t i, const uint32_t 
     balls->coarse[i] ^= (balls->coarse[i] ^ trial) & places;
 }
 
+// Who feels trial t, as all stand now.
+KERNEL Felt felt_ahead(const Balls *balls, size_t t) {
+    const uint32_t i = balls->who[t] & ~STRAYS;
+    _Alignas(16) uint32_t place[4];
+    place_after(&balls->ball[i], balls->move[t], place);
+    return felt_by(balls, i, place);
+}
+
+// Who feels a soft trial is looked up while the one before is judged, and again if that one is
+// near.
 KERNEL bool run_trials(const bool soft, const bool alike, Balls *balls, size_t from, size_t to,
                        MoveTally *moves) {
+    Felt felt, next;
+    if (soft && from < to) next = felt_ahead(balls, from);
     for (size_t t = from; t < to; t++) {
         const uint32_t i = balls->who[t] & ~STRAYS, ahead = balls->who[t + 6] & ~STRAYS;
         bool strays = balls->who[t] & STRAYS;
@@ -628,9 +705,14 @@ KERNEL bool run_trials(const bool soft, const bool alike, Balls *balls, size_t f
         if (__builtin_expect(leaves_anchor(balls, ball, place) && !strays, 0)) {
             if (!balls_refresh(balls, i)) return false; // look round from where it is
             strays = leaves_anchor(balls, ball, place);
+            if (soft) next = felt_ahead(balls, t);
+        }
+        if (soft) {
+            felt = next;
+            if (t + 1 < to) next = felt_ahead(balls, t + 1);
         }
         const bool accepted = __builtin_expect(strays, 0) ? strayed_is_accepted(balls, t, i, place)
-                              : soft ? rise_of(balls, i, place) <= balls->affordable[t]
+                              : soft ? rise_of(balls, i, place, &felt) <= balls->affordable[t]
                                      : !overlaps(alike, balls, i, place, trial);
         if (!soft && !accepted) {
             moves[ball->species].trials++;
@@ -639,6 +721,9 @@ KERNEL bool run_trials(const bool soft, const bool alike, Balls *balls, size_t f
         count_move(balls, balls->move[t], accepted, &moves[ball->species]);
         carry_out(soft, balls, i, place, balls->move[t], trial, accepted);
         if (__builtin_expect(strays, 0) && accepted && !balls_refresh(balls, i)) return false;
+        if (soft && t + 1 < to && __builtin_expect(is_felt(balls, i, &next), 0)) {
+            next = felt_ahead(balls, t + 1);
+        }
     }
     return true;
 }
