@@ -51,7 +51,7 @@ double chain_seconds_per_trial(const System *system) {
                                            [SHAPE_SPHERE] = 16e-9,
                                            [SHAPE_SPHEROCYLINDER] = 110e-9,
                                            [SHAPE_PLATELET] = 200e-9,
-                                           [SHAPE_SOFT_SPHERE] = 60e-9};
+                                           [SHAPE_SOFT_SPHERE] = 50e-9};
     double sum = 0;
     for (size_t s = 0; s < system->species_count; s++) {
         sum += system->species[s].fraction * seconds[system->species[s].shape];

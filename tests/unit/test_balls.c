@@ -40,6 +40,7 @@ static const Scene SCENES[] = {
     {"mixture of discs", 2, 400, 0.72, 1.4, 0, 0, 1.5, 0.1, &UNIFORM},
     {"few spheres", 3, 4, 0.10, 1, 0, 0, 1, 0.3, &UNIFORM},
     {"soft spheres", 3, 300, 0.45, 1, 0, 36, 1, 0.1, &UNIFORM},
+    {"dilute soft spheres, large steps", 3, 60, 0.10, 1, 0, 36, 1, 0.4, &UNIFORM},
     {"softer spheres", 3, 400, 0.25, 1, 0, 13, 1, 0.1, &UNIFORM},
     {"mixture of soft spheres", 3, 300, 0.40, 1.2, 0, 24, 1.3, 0.1, &NORMAL},
 };
