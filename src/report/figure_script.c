@@ -83,7 +83,7 @@ typedef struct Legend {
 } Legend;
 
 static Legend legend_of(const Figure *figure) {
-    enum { KEY_MOST = 6, WIDTH = 700, LETTER = 9, SAMPLE = 70, ROW = 20 };
+    enum { KEY_MOST = 4, WIDTH = 700, LETTER = 9, SAMPLE = 70, ROW = 20 };
     size_t longest = 1;
     for (size_t c = 0; c < figure->curve_count; c++) {
         const size_t letters = strlen(figure->curve[c].title);
