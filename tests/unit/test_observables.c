@@ -176,10 +176,12 @@ END_TEST
 static System system_with(const ObservableKind *kind, int64_t particles, Clock *clock) {
     static const Drive steady = {.flow = {.rate = 0.5}};
     static const Drive oscillating = {.flow = {.oscillation = {0.1, 0.125}}}; // 20 steps a cycle
+    static const Drive pulled = {.pull = {.species = "small", .peclet = 1}};
     static const struct {
         bool flies;
         const Drive *drive;
-    } ways[] = {{true, NULL}, {false, NULL}, {true, &steady}, {true, &oscillating}};
+    } ways[] = {
+        {true, NULL}, {false, NULL}, {true, &steady}, {true, &oscillating}, {false, &pulled}};
     const System systems[] = {system_of(2, particles, 0.4, 2), oriented_system(particles, 2),
                               oriented_system(particles, 1), soft_system(particles, 36)};
     enum { WAYS = sizeof ways / sizeof *ways };
