@@ -65,6 +65,8 @@ static Status print_stage(const Plan *plan, size_t index) {
            stage->dynamics.kind->name, stage_time(stage), clock.unit, steps,
            clock.tick * (double)clock.ticks_per_step);
     if (stage->strain > 0) printf(", to a strain of %.6g", stage->strain);
+    if (stage->stress_error > 0)
+        printf(", at most: until the stress is known to %.6g of it", stage->stress_error);
     printf("\n");
     if (drive_kinds(&stage->drive) & DRIVE_FLOW)
         printf("          %-16s %s\n", "  driven by",
