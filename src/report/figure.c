@@ -206,6 +206,11 @@ void figure_title(Text *text, const Figure *figure) {
     notation_name(text, name + 1);
 }
 
+bool figure_is_theory(const Figure *figure) { // stages of theories bear their section's name
+    const char *stage = figure->series->stage;
+    return strcmp(stage, "theory") == 0 || strcmp(stage, "schematic") == 0;
+}
+
 bool figure_is_dense(const Figure *figure) {
     enum { MARKS_MOST = 60 };
     return figure->x->count > MARKS_MOST;
@@ -222,7 +227,7 @@ void figure_caption(Text *text, const Figure *figure) {
     } else if (results->replicas > 1) {
         text_add(text, " Mean over %zu replicas; %s: standard error of the mean.",
                  results->replicas, figure_is_dense(figure) ? "bands" : "bars");
-    } else {
+    } else if (!figure_is_theory(figure)) {
         text_put(text, " One replica, hence no errors.");
     }
     if (figure->left_out > 0 && !figure->y) {

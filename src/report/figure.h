@@ -61,7 +61,8 @@ typedef struct Figure {
     Curve curve[FIGURE_CURVES];
 } Figure;
 
-bool figure_is_dense(const Figure *figure); // too many points for a mark on each
+bool figure_is_theory(const Figure *figure); // not of a simulation: has neither replicas nor errors
+bool figure_is_dense(const Figure *figure);  // too many points for a mark on each
 
 Figure figure_of(const Results *results, const ResultSeries *series);
 

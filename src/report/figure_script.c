@@ -184,9 +184,7 @@ static const char *title_of(const Figure *figure, size_t curve) {
     const bool alone = !figure->line && !figure->level && !(figure->kind && figure->kind->formula);
     const char *title = figure->curve[curve].title;
     if (title[0] || alone) return title;
-    const char *stage = figure->series->stage; // those of theories bear their section's name
-    const bool theory = strcmp(stage, "theory") == 0 || strcmp(stage, "schematic") == 0;
-    return theory ? "theory" : "simulation";
+    return figure_is_theory(figure) ? "theory" : "simulation";
 }
 
 // A point of which the error is unknown is drawn without a bar: valid(3) asks. It would be skipped
