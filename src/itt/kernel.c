@@ -11,8 +11,8 @@
 
 #include <math.h>
 
-// What is transformed: a; B and E, which are odd; k_i k_m X.
-enum { A, BX, BY, EX, EY, XXX, XXY, XYY, SOURCES };
+// What is transformed: a; B and E, which are odd; k_i k_m X
+enum { A, BX, BY, EX, EY, XX_X, XY_X, YY_X, SOURCES };
 
 struct Kernel {
     const Plane *plane;
@@ -106,9 +106,9 @@ void kernel_set_strain(Kernel *k, double strain) {
         k->weight[EX][i] = x * late_c * k->factor[i];
         k->weight[EY][i] = y * late_c * k->factor[i];
         const double both = k->c[i] * late_c * k->factor[i];
-        k->weight[XXX][i] = x * x * both;
-        k->weight[XXY][i] = x * y * both;
-        k->weight[XYY][i] = y * y * both;
+        k->weight[XX_X][i] = x * x * both;
+        k->weight[XY_X][i] = x * y * both;
+        k->weight[YY_X][i] = y * y * both;
     }
 }
 
@@ -138,10 +138,10 @@ static void multiply_collective(Kernel *k) {
     const size_t room = fourier_size(k->fourier);
     for (size_t r = 0; r < room; r++) {
         const double a = f[A][r];
-        const double xx = f[XXX][r] * a - f[BX][r] * f[EX][r];
-        const double xy = f[XXY][r] * a - f[BX][r] * f[EY][r];
-        const double yx = f[XXY][r] * a - f[BY][r] * f[EX][r];
-        const double yy = f[XYY][r] * a - f[BY][r] * f[EY][r];
+        const double xx = f[XX_X][r] * a - f[BX][r] * f[EX][r];
+        const double xy = f[XY_X][r] * a - f[BX][r] * f[EY][r];
+        const double yx = f[XY_X][r] * a - f[BY][r] * f[EX][r];
+        const double yy = f[YY_X][r] * a - f[BY][r] * f[EY][r];
         out[0][r] = xx * gxx + xy * gxy;
         out[1][r] = xx * gxy + xy + yx * gxx + yy * gxy;
         out[2][r] = yx * gxy + yy;
@@ -155,7 +155,7 @@ static void multiply_tagged(Kernel *k) {
     const size_t room = fourier_size(k->fourier);
     for (size_t r = 0; r < room; r++) {
         const double a = k->tagged[r];
-        const double xx = f[XXX][r] * a, xy = f[XXY][r] * a, yy = f[XYY][r] * a;
+        const double xx = f[XX_X][r] * a, xy = f[XY_X][r] * a, yy = f[YY_X][r] * a;
         out[0][r] = xx * gxx + xy * gxy;
         out[1][r] = xx * gxy + xy + xy * gxx + yy * gxy;
         out[2][r] = xy * gxy + yy;
@@ -194,9 +194,9 @@ void kernel_displacement(Kernel *k, const double *phi, const double *tagged,
     double xx = 0, xy = 0, yy = 0;
     for (size_t i = 0; i < plane->size; i++) {
         const double f = plane->area[i] * phi[i] * tagged[i];
-        xx += f * k->weight[XXX][i];
-        xy += f * k->weight[XXY][i];
-        yy += f * k->weight[XYY][i];
+        xx += f * k->weight[XX_X][i];
+        xy += f * k->weight[XY_X][i];
+        yy += f * k->weight[YY_X][i];
     }
     // K_ij = sum k_i k'_j with k' = (k_x, k_y - strain k_x).
     const double rho = k->direct->density;
