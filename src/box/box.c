@@ -17,6 +17,18 @@ double box_volume(const Box *box) {
     return box->edge[0] * box->edge[1] * box->edge[2];
 }
 
+double box_shortest_edge(const Box *box) {
+    double shortest = box->edge[0];
+    for (int a = 1; a < box->dimension; a++) shortest = fmin(shortest, box->edge[a]);
+    return shortest;
+}
+
+double box_longest_edge(const Box *box) {
+    double longest = box->edge[0];
+    for (int a = 1; a < box->dimension; a++) longest = fmax(longest, box->edge[a]);
+    return longest;
+}
+
 void box_nearest_image(const Box *box, double separation[3]) {
     const double above = rint(separation[1] / box->edge[1]);
     separation[0] -= box->offset * above;

@@ -19,6 +19,8 @@ typedef struct Box {
 Box box_of_volume(int dimension, double volume, const double aspect[3]);
 
 double box_volume(const Box *box); // in d^dimension
+double box_shortest_edge(const Box *box);
+double box_longest_edge(const Box *box);
 
 // Replaces a separation by that of the nearest image: r - L round(r/L) ([T 2.9], corrected), first
 // along y, where each edge passed shifts x by the offset.

@@ -146,8 +146,7 @@ static const double RADIUS_SCALE = 24576.0 / 32768;
 
 static void set_coarse_bounds(Balls *balls) {
     const double *edge = balls->state->box.edge;
-    double longest = 0;
-    for (int a = 0; a < balls->dimension; a++) longest = fmax(longest, edge[a]);
+    const double longest = box_longest_edge(&balls->state->box);
     const double per_edge = balls->alike ? 0x1p16 : COARSE_PER_EDGE;
     const double contact = balls->largest / longest * per_edge;
     const double below = contact + ALIKE_OFF, sure = fmax(contact - ALIKE_OFF, 0);

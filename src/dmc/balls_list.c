@@ -33,10 +33,7 @@ static void choose_skin(Balls *balls) {
 
 // Coarse distances of anchors are in the scaled steps of balls.c, and off by less than four.
 static void choose_far(Balls *balls) {
-    double longest = 0;
-    for (int a = 0; a < balls->dimension; a++) {
-        longest = fmax(longest, balls->state->box.edge[a]);
-    }
+    const double longest = box_longest_edge(&balls->state->box);
     const double range =
         (balls->largest * balls->reach + balls->skin) / longest * COARSE_PER_EDGE + 4;
     const double felt =

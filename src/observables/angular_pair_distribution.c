@@ -75,9 +75,7 @@ static const AngularSettings *settings_in(const Settings *settings) {
 }
 
 static double shortest_half(const Box *box) {
-    double half = box->edge[0] / 2;
-    for (int a = 1; a < box->dimension; a++) half = fmin(half, box->edge[a] / 2);
-    return half;
+    return box_shortest_edge(box) / 2;
 }
 
 static const double USUAL_RANGE = 3; // d: beyond it little is left of what shear does to pairs

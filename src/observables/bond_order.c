@@ -103,9 +103,9 @@ static void discard(Observer *observer) {
 }
 
 static Status allocate(BondOrder *self, const State *state) {
-    double widest = 0, half = INFINITY;
+    const double half = box_shortest_edge(&state->box) / 2;
+    double widest = 0;
     for (size_t i = 0; i < state->count; i++) widest = fmax(widest, state->diameter[i]);
-    for (int a = 0; a < self->dimension; a++) half = fmin(half, state->box.edge[a] / 2);
     TRY(NEW_ARRAY(self->bonds, state->count));
     TRY(NEW_ARRAY(self->sum, state->count * COMPONENTS));
     TRY(NEW_ARRAY(self->legendre, gsl_sf_legendre_array_n(DEGREE)));

@@ -91,8 +91,8 @@ static Status check(const Settings *settings_, const System *system, const Clock
     (void)clock;
     const ContactSettings *settings = settings_in(settings_);
     const Box box = system_box(system);
-    double shortest = box.edge[0], widest = 0;
-    for (int a = 1; a < box.dimension; a++) shortest = fmin(shortest, box.edge[a]);
+    const double shortest = box_shortest_edge(&box);
+    double widest = 0;
     for (size_t s = 0; s < system->species_count; s++) {
         const ShapeKind shape = (ShapeKind)system->species[s].shape;
         widest = fmax(widest, system->species[s].diameter);
@@ -122,9 +122,9 @@ static size_t count_size(const ContactStress *self) {
 }
 
 static Status allocate(ContactStress *self, const State *state, double last) {
-    double widest = 0, half = state->box.edge[0] / 2;
+    const double half = box_shortest_edge(&state->box) / 2;
+    double widest = 0;
     for (size_t i = 0; i < state->count; i++) widest = fmax(widest, state->diameter[i]);
-    for (int a = 1; a < state->box.dimension; a++) half = fmin(half, state->box.edge[a] / 2);
     TRY(NEW_ARRAY(self->sums, self->elements * self->bins));
     if (self->angles > 0) TRY(NEW_ARRAY(self->counts, count_size(self)));
     return near_pairs_create(&self->pairs, &state->box, state->count, fmin(half, widest * last));

@@ -65,9 +65,7 @@ static Status check(const Settings *settings, const System *system, const Clock 
 
 // Where the energy becomes negligible; not beyond half of the shortest edge.
 static double reach(const Box *box, double widest, double exponent) {
-    double reach = widest * exp2(NEGLIGIBLE_BITS / exponent);
-    for (int a = 0; a < box->dimension; a++) reach = fmin(reach, box->edge[a] / 2);
-    return reach;
+    return fmin(widest * exp2(NEGLIGIBLE_BITS / exponent), box_shortest_edge(box) / 2);
 }
 
 static void discard(Observer *observer) {

@@ -92,17 +92,15 @@ typedef struct PairDistribution {
 static const double USUAL_RANGE = 5; // d: where g(r) of a fluid is close to 1
 
 static double range_for(const PairSettings *settings, const Box *box) {
-    double half = box->edge[0] / 2;
-    for (int a = 1; a < box->dimension; a++) half = fmin(half, box->edge[a] / 2);
-    return settings->last > 0 ? settings->last : fmin(USUAL_RANGE, half);
+    return settings->last > 0 ? settings->last : fmin(USUAL_RANGE, box_shortest_edge(box) / 2);
 }
 
 static Status check(const Settings *settings_, const System *system, const Clock *clock) {
     (void)clock;
     const PairSettings *settings = (const PairSettings *)settings_->bytes;
     const Box box = system_box(system);
-    double shortest = box.edge[0], widest = 0;
-    for (int a = 1; a < box.dimension; a++) shortest = fmin(shortest, box.edge[a]);
+    const double shortest = box_shortest_edge(&box);
+    double widest = 0;
     for (size_t s = 0; s < system->species_count; s++) {
         widest = fmax(widest, system->species[s].diameter);
     }
@@ -123,10 +121,10 @@ static Status check(const Settings *settings_, const System *system, const Clock
 
 // A pair of the widest particles has to be found as far out as the contact histogram goes.
 static double contact_range(const State *state, const Histogram *near) {
-    double widest = 0, half = state->box.edge[0] / 2;
+    double widest = 0;
     for (size_t i = 0; i < state->count; i++) widest = fmax(widest, state->diameter[i]);
-    for (int a = 1; a < state->box.dimension; a++) half = fmin(half, state->box.edge[a] / 2);
-    return fmin(half, widest * (1 + (double)near->bins * near->spacing));
+    return fmin(box_shortest_edge(&state->box) / 2,
+                widest * (1 + (double)near->bins * near->spacing));
 }
 
 static Status make_histogram(Histogram *histogram, const State *state, double range) {

@@ -87,8 +87,7 @@ static Status check(const Settings *settings, const System *system, const Clock 
         return status_fail(BAD_DATA,
                            "tracer_surroundings: rings are of three dimensions, the system "
                            "has two; leave it out");
-    double shortest = box.edge[0];
-    for (int a = 1; a < 3; a++) shortest = fmin(shortest, box.edge[a]);
+    const double shortest = box_shortest_edge(&box);
     const double reach = (double)rings_across(set) * set->spacing;
     if (reach > shortest / 2)
         return status_fail(

@@ -98,8 +98,7 @@ static Status check(const Settings *settings, const System *system, const Clock 
     TRY(check_shapes(system));
     const Box box = system_box(system);
     const double range = range_for(own(settings), widest_reach(system));
-    double shortest = box.edge[0];
-    for (int a = 1; a < box.dimension; a++) shortest = fmin(shortest, box.edge[a]);
+    const double shortest = box_shortest_edge(&box);
     if (range <= shortest / 2) return OK;
     return status_fail(
         BAD_DATA,
@@ -133,8 +132,8 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     self->period = looks_period(clock, own(settings)->looks);
     self->spacing = own(settings)->spacing;
     self->bins = bins_for(own(settings));
-    double range = range_for(own(settings), widest_here(state));
-    for (int a = 0; a < 3; a++) range = fmin(range, state->box.edge[a] / 2);
+    const double range =
+        fmin(range_for(own(settings), widest_here(state)), box_shortest_edge(&state->box) / 2);
     Status status = NEW_ARRAY(self->counts, self->bins);
     if (status == OK) status = near_pairs_create(&self->pairs, &state->box, state->count, range);
     if (status != OK) {

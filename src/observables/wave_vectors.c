@@ -164,9 +164,7 @@ size_t wave_vectors_memory(const Box *box, double last, size_t shells, int64_t m
 }
 
 double wave_number_least(const Box *box) {
-    double longest = box->edge[0];
-    for (int a = 1; a < box->dimension; a++) longest = fmax(longest, box->edge[a]);
-    return 2 * PI / longest;
+    return 2 * PI / box_longest_edge(box);
 }
 
 OptionReals wave_numbers_chosen(const OptionReals *given, const System *system) {

@@ -230,10 +230,9 @@ static double reference_diameter(const System *system) {
 static Status melt_and_grow(State *state, Engine *engine, double scale, double rate,
                             const atomic_int *stop, Tally *tally) {
     const double reference = reference_diameter(&state->system), window = WINDOW * reference;
-    double edges = 0;
-    for (int a = 0; a < state->box.dimension; a++) edges = fmax(edges, state->box.edge[a]);
     const double melt =
-        fmin(MELT_TIME * reference + MELT_TIME_PER_EDGE * edges, MELT_TIME_MOST * reference);
+        fmin(MELT_TIME * reference + MELT_TIME_PER_EDGE * box_longest_edge(&state->box),
+             MELT_TIME_MOST * reference);
     engine_grow(engine, scale, 0);
     TRY(run(engine, (int64_t)ceil(melt / window), stop, tally));
     if (scale == 1) return OK;
