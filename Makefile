@@ -23,7 +23,7 @@ PARALLEL = $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(shell nproc))
 build:
 	@tools/setup.sh build
 	@$(CONFIGURE) -B build >/dev/null
-	@$(MAKE) -s -C build $(PARALLEL) perrin-program perrin-public
+	@$(MAKE) -s -C build $(PARALLEL) perrin perrin-public
 
 build-tests:
 	@tools/setup.sh build test

@@ -10,11 +10,11 @@ add_custom_command(
   OUTPUT ${PERRIN_PUBLIC_LIBRARY}
   COMMAND ${CMAKE_COMMAND} -E make_directory public
   COMMAND ${CMAKE_COMMAND} -E rm -f ${PERRIN_PUBLIC_LIBRARY}
-  COMMAND ${CMAKE_LINKER} -r --whole-archive $<TARGET_FILE:perrin> -o public/perrin.o
+  COMMAND ${CMAKE_LINKER} -r --whole-archive $<TARGET_FILE:libperrin> -o public/perrin.o
   COMMAND ${CMAKE_OBJCOPY} --wildcard "--keep-global-symbol=perrin_*" public/perrin.o
   COMMAND ${CMAKE_AR} qcsD ${PERRIN_PUBLIC_LIBRARY} public/perrin.o
   WORKING_DIRECTORY ${CMAKE_BINARY_DIR}
-  DEPENDS perrin
+  DEPENDS libperrin
   COMMENT "Library with public names only"
   VERBATIM)
 add_custom_target(perrin-public ALL DEPENDS ${PERRIN_PUBLIC_LIBRARY})
@@ -26,7 +26,7 @@ include(CMakePackageConfigHelpers)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/public/PerrinConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
 
-install(TARGETS perrin-program RUNTIME DESTINATION bin)
+install(TARGETS perrin RUNTIME DESTINATION bin)
 install(FILES ${PERRIN_PUBLIC_LIBRARY} DESTINATION lib)
 install(DIRECTORY include/perrin DESTINATION include)
 install(FILES ${CMAKE_BINARY_DIR}/public/perrin.pc DESTINATION lib/pkgconfig)

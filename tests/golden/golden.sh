@@ -96,7 +96,7 @@ compilers)
             other=$build/golden-$compiler-$type
             CC=$compiler cmake -S "$source" -B "$other" -G "Unix Makefiles" -DPERRIN_TESTS=OFF \
                 -DCMAKE_BUILD_TYPE=$type >"$other.log" 2>&1 || fail "$(tail -n 20 "$other.log")"
-            make -s -C "$other" perrin-program -j"$(nproc)" >"$other.log" 2>&1 || fail "$(tail -n 20 "$other.log")"
+            make -s -C "$other" perrin -j"$(nproc)" >"$other.log" 2>&1 || fail "$(tail -n 20 "$other.log")"
             perrin=$other/perrin
             golden_run $compiler-$type --threads 2 || fail "$(cat $compiler-$type.out)"
             same_as_reference $compiler-$type
