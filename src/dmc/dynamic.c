@@ -7,6 +7,7 @@
 #include "dmc/predict.h"
 
 #include "base/memory.h"
+#include "propagator/tracer.h"
 
 #include <math.h>
 #include <string.h>
@@ -254,38 +255,6 @@ static Status create(Propagator **out, const Settings *settings, State *state, R
 
 // Pulling.
 
-// Index of the tracer's species; species_count if there is none.
-static size_t tracer_species(const Pull *pull, const System *system) {
-    size_t s = 0;
-    while (s < system->species_count && strcmp(system->species[s].name, pull->species) != 0) s++;
-    return s;
-}
-
-static Status check_tracer(const Pull *pull, const System *system) {
-    const size_t s = tracer_species(pull, system);
-    size_t counts[SPECIES_MOST];
-    system_counts(system, counts);
-    if (s == system->species_count)
-        return status_fail(BAD_DATA, "pull = {species: %s}: there is no such species in the system",
-                           pull->species);
-    if (counts[s] != 1)
-        return status_fail(
-            BAD_DATA,
-            "pull = {species: %s}: these are %zu particles, and the force is on one, "
-            "the tracer; make it a species of its own with a fraction of %.6g",
-            pull->species, counts[s], 1 / (double)system->particles);
-    if (s == 0)
-        return status_fail(BAD_DATA,
-                           "pull = {species: %s}: steps and times go by the first species, which "
-                           "must be one of the bath; name the tracer after it",
-                           pull->species);
-    if (shape_is_oriented((ShapeKind)system->species[s].shape))
-        return status_fail(BAD_DATA, "pull = {species: %s}: a %s has a body axis; pull a sphere",
-                           pull->species, shape_names[system->species[s].shape]);
-    if (pull->axis < system->dimension) return OK;
-    return status_fail(BAD_DATA, "pull = {axis: z}: the system has two dimensions; use x or y");
-}
-
 // How far a trial may go under the force, by the tracer's step as it is where all accept alike.
 static Status check_pull_step(const Dynamic *set, const Pull *pull, const System *system) {
     static const double FIRST_ORDER_MOST = 0.3, WORK_MOST = 5, DRIFT_MOST = 0.2; // f, f, d
@@ -314,24 +283,10 @@ static Status check_pull_step(const Dynamic *set, const Pull *pull, const System
         pull->peclet, set->step, drift, DRIFT_MOST, set->step * sqrt(DRIFT_MOST / drift));
 }
 
-// The tracer goes 3/4 of the edge, and what it has left behind must have closed in the rest.
-static Status check_pull_box(const Pull *pull, const System *system) {
-    static const double STRONG = 1, EDGE_LEAST = 12; // Peclet number; in tracer diameters
-    const Box box = system_box(system);
-    const double diameter = system->species[tracer_species(pull, system)].diameter;
-    const double edge = box.edge[pull->axis];
-    if (pull->peclet < STRONG || edge >= EDGE_LEAST * diameter) return OK;
-    return status_fail(BAD_DATA,
-                       "pull = {peclet: %g}: the box is %.3g d long along %s, so that the tracer "
-                       "would meet its own wake; make it at least %.3g d long, with more particles "
-                       "or an aspect such as [2, 1, 1]",
-                       pull->peclet, edge, drive_pull_axes[pull->axis], EDGE_LEAST * diameter);
-}
-
 static Status check_drive(const Settings *settings, const System *system, const Drive *drive) {
     const Dynamic *set = dynamic(settings);
     const Pull *pull = &drive->pull;
-    TRY(check_tracer(pull, system));
+    TRY(tracer_check(pull, system));
     if (set->clock != CLOCK_ACCEPTANCE)
         return status_fail(
             BAD_DATA,
@@ -339,7 +294,7 @@ static Status check_drive(const Settings *settings, const System *system, const 
             "the bath's; use clock: acceptance-rescaling in dynamics",
             pull->species);
     TRY(check_pull_step(set, pull, system));
-    return check_pull_box(pull, system);
+    return tracer_check_box(pull, system);
 }
 
 static Status drive(Propagator *propagator, const Drive *drive, int64_t steps) {
@@ -349,7 +304,7 @@ static Status drive(Propagator *propagator, const Drive *drive, int64_t steps) {
     made->pulled = true;
     made->tracer = tracer_species(pull, system);
     made->ticks = steps;
-    drive_pull_ticks(pull, made->tick, &made->period, &made->pull);
+    drive_pull_ticks(pull, made->tick, 1, &made->period, &made->pull);
     clock_pull(made->clock,
                &(ClockPull){.species = made->tracer,
                             .axis = (int)pull->axis,

@@ -39,6 +39,19 @@ typedef struct EngineFlow {
 // has them, flow or none.
 Status engine_shear(Engine *engine, const EngineFlow *flow);
 
+// A constant force on one particle of an engine that redraws: D F, added to its velocity wherever
+// that is drawn, so that alone it drifts and diffuses exactly, whatever the interval.
+typedef struct EnginePull {
+    size_t particle; // its id
+    int axis;
+    double drift;       // in sqrt(kT/m)
+    int64_t begun;      // the step of the state at which the stage began
+    int64_t period, on; // steps of a trajectory, and of its first part, which has the force
+} EnginePull;
+
+// From the next step on; once in the life of an engine.
+void engine_pull(Engine *engine, const EnginePull *pull);
+
 // BAD_DATA with a sentence if engines cannot do this system in windows of this length.
 Status engine_check(const System *system, double window);
 size_t engine_memory(const System *system); // bytes

@@ -71,8 +71,8 @@ static void take_in(Engine *engine) {
 
 static void choose_margin(Engine *engine) {
     const bool diffusive = engine->settings.redraw && engine->settings.windows_per_step == 1;
-    engine->margin = (diffusive ? MARGIN_DIFFUSIVE : MARGIN_BALLISTIC) * engine->fastest *
-                     engine->settings.window;
+    const double thermal = (diffusive ? MARGIN_DIFFUSIVE : MARGIN_BALLISTIC) * engine->fastest;
+    engine->margin = (thermal + engine->pull.drift) * engine->settings.window;
 }
 
 // How much single precision errs.
@@ -190,6 +190,12 @@ Status engine_shear(Engine *engine, const EngineFlow *flow) {
     return list_build(engine);
 }
 
+void engine_pull(Engine *engine, const EnginePull *pull) {
+    ASSERT(engine->settings.redraw && pull->period > 0);
+    engine->pull = *pull;
+    choose_margin(engine);
+}
+
 void engine_grow(Engine *engine, double scale, double rate) {
     ASSERT(!engine->sheared);
     engine->scale = scale;
@@ -209,6 +215,22 @@ static void draw(Engine *engine, int64_t step) {
     engine->redraw = 1;
     rng_normal_rows(engine->key, engine->settings.stream, (uint64_t)step, engine->id, engine->count,
                     engine->dimension, engine->normals);
+}
+
+static bool is_pulled_in(const Engine *engine, int64_t step) {
+    const EnginePull *pull = &engine->pull;
+    return pull->period > 0 && (step - pull->begun) % pull->period < pull->on;
+}
+
+// The velocities of a step have been drawn: that of the tracer has the drift besides.
+static void pull_tracer(Engine *engine, int64_t step) {
+    const EnginePull *pull = &engine->pull;
+    if (!is_pulled_in(engine, step)) return;
+    if (engine->id[engine->pulled] != pull->particle)
+        for (engine->pulled = 0; engine->id[engine->pulled] != pull->particle;) engine->pulled++;
+    engine->rows[engine->row * engine->pulled + engine->row / 2 + (size_t)pull->axis] +=
+        pull->drift;
+    engine->kernel->sketch(engine, (uint32_t)engine->pulled);
 }
 
 static void snapshot_take(Engine *engine) {
@@ -325,6 +347,7 @@ static void run_kernel(Engine *engine) {
         engine->kernel->run_growing(engine);
     else
         engine->kernel->run_window(engine);
+    if (engine->redraw) pull_tracer(engine, engine->state->step + 1);
 }
 
 static Status one_window(Engine *engine) {
@@ -352,6 +375,7 @@ Status engine_advance(Engine *engine, int64_t windows, Tally *tally) {
     engine->next_rate = engine->rate;
     if (engine->settings.redraw && engine->window == 0) draw(engine, engine->state->step);
     engine->kernel->open_window(engine);
+    if (engine->redraw) pull_tracer(engine, engine->state->step);
     snapshot_take(engine);
     while (engine->left > 0) TRY(one_window(engine));
     *tally = engine->tally;

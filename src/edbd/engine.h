@@ -100,6 +100,8 @@ struct Engine {
     double next_rate;      // and of that in the next one
     double image_velocity; // of those above, rate edge[1]
     EngineFlow flow;
+    EnginePull pull;      // period 0: of nobody
+    size_t pulled;        // slot, unless the order has changed since
     int64_t window, left; // windows done in this step; still to do in this call
 
     double *rows;       // [count + 1][row]
@@ -143,10 +145,11 @@ struct Engine {
 
 // One kernel per instruction set, the same source compiled for each.
 struct EngineKernel {
-    void (*run_window)(Engine *engine);  // predict, collide, move, fold
-    void (*run_growing)(Engine *engine); // the same with growing diameters
-    void (*run_sheared)(Engine *engine); // the same in a box that is sheared, or was
-    void (*open_window)(Engine *engine); // what comes after the move: velocities, sketch
+    void (*run_window)(Engine *engine);            // predict, collide, move, fold
+    void (*run_growing)(Engine *engine);           // the same with growing diameters
+    void (*run_sheared)(Engine *engine);           // the same in a box that is sheared, or was
+    void (*open_window)(Engine *engine);           // what comes after the move: velocities, sketch
+    void (*sketch)(Engine *engine, uint32_t slot); // of one whose velocity was changed since
     void (*pair_cell)(Engine *engine, size_t cell, const Span *spans, int count);
     void (*prune)(Engine *engine); // the half list to the near pairs
 };

@@ -579,6 +579,9 @@ KERNEL void open_all(const int dimension, const Engine *engine) {
     static void open_##dimension(Engine *engine) {                                                 \
         open_all(dimension, engine);                                                               \
     }                                                                                              \
+    static void sketch_##dimension(Engine *engine, uint32_t slot) {                                \
+        sketch_row(dimension, engine, (dimension == 2 ? ROW_2D : ROW_3D) * slot);                  \
+    }                                                                                              \
     static void pair_##dimension(Engine *engine, size_t cell, const Span *spans, int count) {      \
         pair_cell(dimension, engine, cell, spans, count);                                          \
     }                                                                                              \
@@ -590,6 +593,7 @@ KERNEL void open_all(const int dimension, const Engine *engine) {
         .run_growing = grow_##dimension,                                                           \
         .run_sheared = shear_##dimension,                                                          \
         .open_window = open_##dimension,                                                           \
+        .sketch = sketch_##dimension,                                                              \
         .pair_cell = pair_##dimension,                                                             \
         .prune = prune_##dimension,                                                                \
     };

@@ -4,6 +4,7 @@
 #include "edbd/edbd.h"
 
 #include "base/memory.h"
+#include "propagator/tracer.h"
 #include "state/equation_of_state.h"
 
 #include <math.h>
@@ -57,6 +58,7 @@ typedef struct EnginePropagator {
     Engine *engine;
     const State *state; // borrowed
     double step_time;   // in the unit of the method
+    double interval;    // between draws of the velocities, in d sqrt(m/kT)
 } EnginePropagator;
 
 static const EventDriven *event_driven(const Settings *settings) {
@@ -178,29 +180,73 @@ static Status event_driven_create(Propagator **out, const Settings *settings, St
                                    .stream = STREAM_VELOCITY};
     const double step_time =
         event_driven_tick(settings, &state->system) * (double)engine.windows_per_step;
-    return propagator_create(out, &propagator_event_driven, &engine, step_time, state, key);
+    TRY(propagator_create(out, &propagator_event_driven, &engine, step_time, state, key));
+    ((EnginePropagator *)*out)->interval = event_driven(settings)->thermostat_interval;
+    return OK;
 }
 
 // Of a strain in one window, with which images across y move by little.
 static const double STRAIN_MOST = 0.02;
 
-static Status event_driven_check_drive(const Settings *settings, const System *system,
-                                       const Drive *drive) {
-    const double strain = flow_fastest(&drive->flow) * event_driven_tick(settings, system);
+static Status check_flow(const Settings *settings, const System *system, const Flow *flow) {
+    const double strain = flow_fastest(flow) * event_driven_tick(settings, system);
     const Box box = system_box(system);
     const double most = fmin(STRAIN_MOST, 0.25 * box.edge[0] / box.edge[1]);
     if (strain <= most) return OK;
     return status_fail(BAD_DATA,
                        "%s strains by %.3g in a window of %g d sqrt(m/kT), more than %.3g; take a "
                        "shorter thermostat_interval",
-                       flow_words((char[FLOW_WORDS_SIZE]){0}, &drive->flow), strain,
+                       flow_words((char[FLOW_WORDS_SIZE]){0}, flow), strain,
                        event_driven_flight(settings), most);
+}
+
+// D F of the tracer, in sqrt(kT/m).
+static double pulled_drift(const Pull *pull, const System *system, double interval) {
+    const Species *tracer = &system->species[tracer_species(pull, system)];
+    return drive_pull_force(pull, tracer->diameter) * interval / (2 * tracer->mass);
+}
+
+static Status check_pull(const Settings *settings, const System *system, const Pull *pull) {
+    static const double DRIFT_MOST = 0.1; // in an interval, in tracer diameters
+    TRY(tracer_check(pull, system));
+    if (pull->clock != PULL_DRIFTED)
+        return status_fail(BAD_DATA,
+                           "pull = {clock: %s}: trials and their clocks are of "
+                           "dynamic-monte-carlo; leave it out",
+                           drive_pull_clocks[pull->clock]);
+    const double interval = event_driven(settings)->thermostat_interval;
+    const double diameter = system->species[tracer_species(pull, system)].diameter;
+    const double drift = pulled_drift(pull, system, interval) * interval / diameter;
+    if (drift <= DRIFT_MOST) return tracer_check_box(pull, system);
+    return status_fail(BAD_DATA,
+                       "pull = {peclet: %g}: at thermostat_interval = %g the tracer drifts by %.3g "
+                       "of its diameter in an interval, above %g; take one below %.2g",
+                       pull->peclet, interval, drift, DRIFT_MOST,
+                       interval * sqrt(DRIFT_MOST / drift));
+}
+
+static Status event_driven_check_drive(const Settings *settings, const System *system,
+                                       const Drive *drive) {
+    if (drive_kinds(drive) & DRIVE_PULL) return check_pull(settings, system, &drive->pull);
+    return check_flow(settings, system, &drive->flow);
+}
+
+static Status pull(EnginePropagator *driven, const Pull *pull, int64_t begun) {
+    const System *system = &driven->state->system;
+    EnginePull tracer = {.particle = tracer_particle(pull, system),
+                         .axis = (int)pull->axis,
+                         .drift = pulled_drift(pull, system, driven->interval),
+                         .begun = begun};
+    drive_pull_ticks(pull, driven->step_time, 1, &tracer.period, &tracer.on);
+    engine_pull(driven->engine, &tracer);
+    return OK;
 }
 
 static Status event_driven_drive(Propagator *propagator, const Drive *drive, int64_t steps) {
     EnginePropagator *driven = (EnginePropagator *)propagator;
-    const EngineFlow flow = {
-        .flow = &drive->flow, .step_time = driven->step_time, .begun = driven->state->step - steps};
+    const int64_t begun = driven->state->step - steps;
+    if (drive_kinds(drive) & DRIVE_PULL) return pull(driven, &drive->pull, begun);
+    const EngineFlow flow = {.flow = &drive->flow, .step_time = driven->step_time, .begun = begun};
     return engine_shear(driven->engine, &flow);
 }
 
@@ -287,7 +333,7 @@ const PropagatorKind propagator_event_driven = {
     .flies = true,
     .thermostatted = true,
     .leans = true,
-    .drives = DRIVE_FLOW,
+    .drives = DRIVE_FLOW | DRIVE_PULL,
     .check_drive = event_driven_check_drive,
     .tick = event_driven_tick,
     .flight_time = event_driven_flight,

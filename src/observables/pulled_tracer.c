@@ -8,7 +8,8 @@
 // would be too large. Distance over time, each summed over all trajectories, is not.
 #include "base/memory.h"
 #include "observables/put.h"
-#include "observables/tracer.h"
+#include "observables/tracer_frames.h"
+#include "propagator/tracer.h"
 
 #include <math.h>
 
@@ -66,14 +67,11 @@ static const TracerSettings *settings_of(const Settings *settings) {
     return (const TracerSettings *)settings->bytes;
 }
 
-static double free_diffusion(const Pull *pull, const System *system) {
-    const Diffusion free = species_diffusion(&system->species[tracer_species(pull, system)]);
-    return free.parallel / system_reference_diffusion(system);
-}
-
-static double free_velocity(const Pull *pull, const System *system) {
+static double free_velocity(const Clock *clock, const System *system) {
+    const Pull *pull = &clock->drive->pull;
     const Species *species = &system->species[tracer_species(pull, system)];
-    return free_diffusion(pull, system) * drive_pull_force(pull, species->diameter);
+    return tracer_free_diffusion(pull, system, clock->thermostatted) *
+           drive_pull_force(pull, species->diameter);
 }
 
 // Looks are to be as fine as the fastest trajectories want it, and some slower ones last.
@@ -81,16 +79,16 @@ static Looking looking_for(const Settings *settings, const System *system, const
     static const int64_t SLOWER = 5;
     const Pull *pull = &clock->drive->pull;
     const Box box = system_box(system);
-    const int64_t most = settings_of(settings)->looks;
+    const int64_t most = settings_of(settings)->looks, step = clock->ticks_per_step;
     int64_t on;
     Looking looking;
-    drive_pull_ticks(pull, clock->tick, &looking.period, &on);
-    if (looking.period > clock->ticks) looking.period = on = clock->ticks + 1; // one trajectory
-    const int64_t last = on < looking.period ? on : looking.period - 1;
+    drive_pull_ticks(pull, clock->tick, step, &looking.period, &on);
+    if (looking.period > clock->ticks) looking.period = on = clock->ticks + step; // one trajectory
+    const int64_t last = on < looking.period ? on : looking.period - step;
     const double way = settings_of(settings)->distance * box.edge[pull->axis];
-    const double fastest = fmin((double)last, way / free_velocity(pull, system) / clock->tick);
-    looking.spacing = (int64_t)ceil(fmin((double)last, (double)SLOWER * fastest) / (double)most);
-    if (looking.spacing < 1) looking.spacing = 1;
+    const double fastest = fmin((double)last, way / free_velocity(clock, system) / clock->tick);
+    const double span = fmin((double)last, (double)SLOWER * fastest) / (double)most;
+    looking.spacing = (int64_t)fmax(1, ceil(span / (double)step)) * step;
     const int64_t looks = last / looking.spacing, room = 2 * SLOWER * most;
     looking.looks = (size_t)(looks < room ? looks : room);
     looking.whole = fastest / (double)looking.spacing;
@@ -102,6 +100,7 @@ static Status check(const Settings *settings, const System *system, const Clock 
         return status_fail(
             BAD_DATA, "pulled_tracer: no force is on a tracer in this stage; give it one, as in "
                       "pull: {species: tracer, peclet: 1}, or leave this out");
+    TRY(tracer_check_frames(clock));
     const Looking looking = looking_for(settings, system, clock);
     if (looking.whole >= 10) return OK;
     return status_fail(
@@ -245,7 +244,8 @@ static Status put_curves(const Tracer *tracer, double *values, Results *results,
 static Status put_passage(const Tracer *tracer, const System *system, Results *results,
                           size_t replica) {
     static const char *const quantities[2] = {"distance", "time"};
-    const Pull *pull = &tracer->observer.clock.drive->pull;
+    const Clock *clock = &tracer->observer.clock;
+    const Pull *pull = &clock->drive->pull;
     const ResultSeries shape = {
         .unit = "d; d^2/D0",
         .about = "Distance and time of the tracer, summed over trajectories, from when it is taken "
@@ -255,10 +255,10 @@ static Status put_passage(const Tracer *tracer, const System *system, Results *r
                  {.name = "begin", .unit = "", .count = BEGINS, .values = BEGIN}}};
     TRY(observer_put_scalar(&tracer->observer, "tracer_free_diffusion", "D0",
                             "Diffusion coefficient of the tracer alone.", results, replica,
-                            free_diffusion(pull, system)));
+                            tracer_free_diffusion(pull, system, clock->thermostatted)));
     TRY(observer_put_scalar(&tracer->observer, "tracer_free_velocity", "D0/d",
                             "D F/kT: the velocity of the tracer were there no bath.", results,
-                            replica, free_velocity(pull, system)));
+                            replica, free_velocity(clock, system)));
     return observer_put_series(&tracer->observer, "tracer_passage", &shape, results, replica,
                                tracer->passage[0]);
 }

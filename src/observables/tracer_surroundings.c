@@ -7,7 +7,8 @@
 #include "base/memory.h"
 #include "observables/looks.h"
 #include "observables/put.h"
-#include "observables/tracer.h"
+#include "observables/tracer_frames.h"
+#include "propagator/tracer.h"
 
 #include <math.h>
 #include <string.h>
@@ -87,6 +88,7 @@ static Status check(const Settings *settings, const System *system, const Clock 
         return status_fail(BAD_DATA,
                            "tracer_surroundings: rings are of three dimensions, the system "
                            "has two; leave it out");
+    TRY(tracer_check_frames(clock));
     const double shortest = box_shortest_edge(&box);
     const double reach = (double)rings_across(set) * set->spacing;
     if (reach > shortest / 2)
@@ -96,7 +98,7 @@ static Status check(const Settings *settings, const System *system, const Clock 
             "of the box, %g d; make it shorter",
             set->reach, shortest);
     int64_t period, on;
-    drive_pull_ticks(&clock->drive->pull, clock->tick, &period, &on);
+    drive_pull_ticks(&clock->drive->pull, clock->tick, clock->ticks_per_step, &period, &on);
     const double time = clock->tick * (double)(on < clock->ticks ? on : clock->ticks);
     if (set->begin < time) return OK;
     return status_fail(BAD_DATA,
@@ -124,7 +126,7 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     rings->across = rings_across(&rings->settings);
     rings->along = 2 * rings->across;
     rings->spacing = looks_period(clock, rings->settings.looks);
-    drive_pull_ticks(pull, clock->tick, &rings->period, &rings->on);
+    drive_pull_ticks(pull, clock->tick, clock->ticks_per_step, &rings->period, &rings->on);
     rings->begin = (int64_t)ceil(rings->settings.begin / clock->tick);
     Status status = NEW_ARRAY(rings->count, rings->along * rings->across);
     if (status == OK) status = NEW_ARRAY(rings->order, rings->along * rings->across);

@@ -75,7 +75,8 @@ static const Option rows[] = {
      .type = OPTION_CHOICE,
      .offset = offsetof(Drive, pull.clock),
      .unit = "",
-     .about = "Trials of the tracer and what they are worth in time: drifted ones, exact however "
+     .about = "Of Monte Carlo, trials of the tracer and what they are worth in time: drifted ones, "
+              "exact however "
               "long; uniform ones with the exact mean of a free particle; the same to first order "
               "in the force, as published.",
      .choices = drive_pull_clocks},
@@ -154,6 +155,11 @@ static Status check_pull(const Pull *pull) {
 Status drive_check(const Drive *drive) {
     const Flow *flow = &drive->flow;
     TRY(check_pull(&drive->pull));
+    if (drive_kinds(drive) == (DRIVE_FLOW | DRIVE_PULL))
+        return status_fail(BAD_DATA,
+                           "pull = {species: %s}: the stage is sheared as well, and no method does "
+                           "both; make them two stages",
+                           drive->pull.species);
     if ((flow->rate != 0) + oscillates(flow) + has_table(flow) > 1)
         return status_fail(BAD_DATA, "%s: a stage has one of shear_rate, oscillate and shear_table",
                            flow_words((char[FLOW_WORDS_SIZE]){0}, flow));
@@ -163,13 +169,15 @@ Status drive_check(const Drive *drive) {
     return check_table(&flow->table.times, &flow->table.rates);
 }
 
-void drive_pull_ticks(const Pull *pull, double tick, int64_t *period, int64_t *on) {
+void drive_pull_ticks(const Pull *pull, double tick, int64_t per_step, int64_t *period,
+                      int64_t *on) {
     *period = *on = INT64_MAX;
     if (!(pull->period > 0)) return;
-    const double ticks = rint(pull->period / tick), rest = rint(pull->rest / tick);
-    if (ticks >= 0x1p62) return;
-    *period = ticks < 1 ? 1 : (int64_t)ticks;
-    *on = *period - (rest < ticks ? (int64_t)rest : 0);
+    const double step = tick * (double)per_step;
+    const double steps = rint(pull->period / step), rest = rint(pull->rest / step);
+    if (steps * (double)per_step >= 0x1p62) return;
+    *period = (steps < 1 ? 1 : (int64_t)steps) * per_step;
+    *on = *period - (rest < steps ? (int64_t)rest : 0) * per_step;
 }
 
 double drive_pull_force(const Pull *pull, double diameter) {

@@ -58,9 +58,10 @@ const char *flow_words(char words[FLOW_WORDS_SIZE], const Flow *flow);
 extern const char *const drive_pull_axes[],
     *const drive_pull_clocks[]; // words of the run file, NULL-ended
 
-// Ticks of a trajectory's period, and of its first part, in which the force is on: INT64_MAX where
-// there is one trajectory.
-void drive_pull_ticks(const Pull *pull, double tick, int64_t *period, int64_t *on);
+// Ticks of a trajectory's period, and of its first part, in which the force is on, in whole steps
+// of so many ticks: INT64_MAX where there is one trajectory.
+void drive_pull_ticks(const Pull *pull, double tick, int64_t per_step, int64_t *period,
+                      int64_t *on);
 double drive_pull_force(const Pull *pull, double diameter); // of the tracer: in kT/d
 
 // Mean rate from one time of the stage to another, in d^2/D0: what the flow is kept at in between.

@@ -146,10 +146,11 @@ Status stage_check_drive(const Plan *plan, size_t stage) {
         return status_fail(BAD_DATA, "%s: the method %s has no shear; use event-driven",
                            flow_words((char[FLOW_WORDS_SIZE]){0}, &at->drive.flow), kind->name);
     if (wanted & DRIVE_PULL & ~kind->drives)
-        return status_fail(BAD_DATA,
-                           "pull = {species: %s}: the method %s pulls no particle; use "
-                           "dynamic-monte-carlo",
-                           at->drive.pull.species, kind->name);
+        return status_fail(
+            BAD_DATA,
+            "pull = {species: %s}: the method %s pulls no particle; use event-driven or "
+            "dynamic-monte-carlo",
+            at->drive.pull.species, kind->name);
     if (sheared_before(plan, stage) && !kind->leans)
         return status_fail(BAD_DATA,
                            "stage '%s' follows a sheared one, and the method %s cannot go on in a "

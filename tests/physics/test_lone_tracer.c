@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A tracer alone under a constant force, by each of the clocks: drift and diffusion against the
-// exact moments of a trial, from f = F d/kT = 0.01 to 5, through balls and bodies alike. Fixed
-// seeds; statistical tolerances are of five standard errors.
+// A tracer alone under a constant force: by each clock of Monte Carlo drift and diffusion against
+// the exact moments of a trial, from f = F d/kT = 0.01 to 5, through balls and bodies alike; by
+// event-driven dynamics against D F and D. Fixed seeds; statistical tolerances are of five standard
+// errors.
 #include "dmc/clock.h"
+#include "observe.h"
 
 #include <check.h>
 #include <math.h>
@@ -142,12 +144,76 @@ START_TEST(a_lone_tracer_moves_as_its_trials_say) {
 }
 END_TEST
 
+typedef struct Flight {
+    double interval, peclet;
+    int64_t substeps, rest; // windows of an interval; intervals without the force, of ten
+} Flight;
+
+enum { PARTS = 4000, INTERVALS = 10 };
+
+// Of a tracer of twice the first species' mass, event-driven: displacements in each of the parts;
+// returns the time of a part.
+static double fly(const Flight *flight, double peclet, double displacement[PARTS][3]) {
+    State *state = two(false);
+    state->system.species[1].mass = state->mass[1] = 2;
+    const PropagatorKind *kind = &propagator_event_driven;
+    Settings settings = settings_of(&kind->options);
+    set_number(&settings, &kind->options, "thermostat_interval", flight->interval);
+    set_number(&settings, &kind->options, "substeps", (double)flight->substeps);
+    const int64_t per_step = kind->ticks_per_step(&settings);
+    const double step = kind->tick(&settings, &state->system) * (double)per_step;
+    const Drive drive = {.pull = {.species = "tracer",
+                                  .peclet = peclet,
+                                  .axis = AXIS,
+                                  .period = INTERVALS * step,
+                                  .rest = (double)flight->rest * step}};
+    Propagator *propagator = NULL;
+    Tally tally = {0};
+    ck_assert_int_eq(kind->create(&propagator, &settings, state, KEY), OK);
+    ck_assert_int_eq(kind->drive(propagator, &drive, 0), OK);
+    for (int p = 0; p < PARTS; p++) {
+        for (int a = 0; a < 3; a++) displacement[p][a] = -state_unfolded(state, a, 1);
+        ck_assert_int_eq(kind->advance(propagator, INTERVALS * per_step, &tally), OK);
+        for (int a = 0; a < 3; a++) displacement[p][a] += state_unfolded(state, a, 1);
+    }
+    kind->free(propagator);
+    state_free(state);
+    return INTERVALS * step;
+}
+
+// Event-driven, the same random numbers with and without the force: it adds D F t to the digit, and
+// the rest diffuses with D = D0/2, whatever the interval and the force.
+START_TEST(event_driven_drift_is_exact) {
+    static const Flight flights[] = {{0.01, 0.01, 0, 0},  {0.01, 50, 0, 0}, {0.001, 500, 0, 2},
+                                     {0.1, 2, 0, 5},      {1, 0.02, 0, 0},  {0.03, 20, 5, 3},
+                                     {0.0003, 5000, 1, 0}};
+    static double pulled[PARTS][3], free[PARTS][3];
+    const Flight *flight = &flights[_i];
+    const double time = fly(flight, flight->peclet, pulled), diffusion = 0.5;
+    fly(flight, 0, free);
+    const double drift =
+        diffusion * 2 * flight->peclet * time * (1 - (double)flight->rest / INTERVALS);
+    double squares[3] = {0};
+    for (int p = 0; p < PARTS; p++) {
+        for (int a = 0; a < 3; a++) {
+            ck_assert_double_eq_tol(pulled[p][a] - free[p][a], a == AXIS ? drift : 0, 1e-9);
+            squares[a] += free[p][a] * free[p][a];
+        }
+    }
+    printf("event-driven interval %g Pe %g:", flight->interval, flight->peclet);
+    for (int a = 0; a < 3; a++)
+        check_found("diffusion", squares[a] / (PARTS * 2 * diffusion * time), sqrt(2.0 / PARTS), 1);
+    printf("\n");
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("a lone tracer");
     TCase *all = tcase_create("all");
     tcase_set_timeout(all, 120);
     tcase_add_test(all, free_moments_are_exact);
     tcase_add_loop_test(all, a_lone_tracer_moves_as_its_trials_say, 0, 2 * WORKS * PULL_CLOCKS);
+    tcase_add_loop_test(all, event_driven_drift_is_exact, 0, 7);
     suite_add_tcase(suite, all);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);

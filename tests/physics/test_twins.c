@@ -24,6 +24,7 @@ typedef struct Case {
     int steps;
     uint64_t collisions_least;
     Flow flow;
+    EnginePull pull;
 } Case;
 
 // Equal numbers of diameters 1 and 1.4, masses 1 and 2.
@@ -121,6 +122,8 @@ static void check_twins(const Case *test, uint64_t seed) {
     ck_assert_int_eq(engine_create(&engine, &settings, state, key), OK);
     const EngineFlow flow = {.flow = &test->flow, .step_time = 1}; // its unit is a step, then
     if (flow_fastest(&test->flow) > 0) ck_assert_int_eq(engine_shear(engine, &flow), OK);
+    const EnginePull *pull = &test->pull;
+    if (pull->period > 0) engine_pull(engine, pull);
     ck_assert_int_eq(
         reference_create(&reference, twin, key, interval, test->redraw, test->all_pairs), OK);
     for (int step = 0; step < test->steps; step++) {
@@ -128,6 +131,8 @@ static void check_twins(const Case *test, uint64_t seed) {
         ReferenceLog slow_log = {.records = slow_records, .capacity = LOG_SIZE};
         copy(twin, state);
         reference_shear(reference, flow_rate(&test->flow, step, step + 1) / interval);
+        const bool pulled = pull->period > 0 && step % pull->period < pull->on;
+        reference_pull(reference, pull->particle, pull->axis, pulled ? pull->drift : 0);
         engine_record(engine, &fast_log);
         reference_record(reference, &slow_log);
         ck_assert_int_eq(engine_advance(engine, test->windows_per_step, &fast), OK);
@@ -183,6 +188,22 @@ START_TEST(sheared_particles_collide_as_their_twins) {
 }
 END_TEST
 
+// A tenth of a thermal velocity to five of them, with rests, through lists of every kind.
+START_TEST(a_pulled_particle_collides_as_its_twin) {
+    const Case discs = {2,    64,    0.7,  0.01,  1,
+                        true, false, 3000, 10000, .pull = {17, 1, 3, 0, INT64_MAX, INT64_MAX}};
+    const Case rests = {2, 36, 0.6, 0.01, 10, true, true, 300, 2000, .pull = {30, 0, 1, 0, 7, 4}};
+    const Case spheres = {3,    64,    0.45, 0.01, 1,
+                          true, false, 1500, 2000, .pull = {40, 2, 5, 0, INT64_MAX, INT64_MAX}};
+    const Case short_windows = {3,    64,    0.45, 0.001, 1,
+                                true, false, 3000, 500,   .pull = {63, 0, 0.1, 0, 100, 99}};
+    check_twins(&discs, 41);
+    check_twins(&rests, 42);
+    check_twins(&spheres, 43);
+    check_twins(&short_windows, 44);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("twins");
     TCase *all = tcase_create("all");
@@ -191,6 +212,7 @@ int main(void) {
     tcase_add_test(all, brownian_spheres_collide_as_their_twins);
     tcase_add_test(all, newtonian_particles_collide_as_their_twins);
     tcase_add_test(all, sheared_particles_collide_as_their_twins);
+    tcase_add_test(all, a_pulled_particle_collides_as_its_twin);
     suite_add_tcase(suite, all);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);

@@ -37,6 +37,9 @@ struct Reference {
     RngKey key;
     double interval;
     double rate; // of the shear
+    size_t pulled;
+    int pull_axis;
+    double drift; // of the one pulled
     bool thermostatted, all_pairs;
     int dimension, count;
     Particle *particles;
@@ -368,6 +371,7 @@ static void draw_velocities(Reference *reference) {
         }
         state->velocity[0][i] += reference->rate * state->position[1][i];
     }
+    state->velocity[reference->pull_axis][reference->pulled] += reference->drift;
 }
 
 static void take_from_state(Reference *reference) {
@@ -443,6 +447,12 @@ void reference_advance(Reference *reference, int64_t intervals, Tally *tally) {
 
 void reference_shear(Reference *reference, double rate) {
     reference->rate = rate;
+}
+
+void reference_pull(Reference *reference, size_t particle, int axis, double drift) {
+    reference->pulled = particle;
+    reference->pull_axis = axis;
+    reference->drift = drift;
 }
 
 void reference_record(Reference *reference, ReferenceLog *log) {

@@ -37,6 +37,9 @@ void reference_free(Reference *reference);
 // Edwards). In a box that was ever sheared `all_pairs` is needed.
 void reference_shear(Reference *reference, double rate);
 
+// From the next interval on one particle has this velocity along an axis besides what is drawn.
+void reference_pull(Reference *reference, size_t particle, int axis, double drift);
+
 // Each interval begins from what stands in the state and ends with it, one step later.
 void reference_advance(Reference *reference, int64_t intervals, Tally *tally);
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whom a pull is on, and what every method that pulls asks of the system.
+#pragma once
+
+#include "propagator/drive.h"
+#include "state/system.h"
+
+// Index of the tracer's species; species_count if there is none of this name.
+size_t tracer_species(const Pull *pull, const System *system);
+size_t tracer_particle(const Pull *pull, const System *system); // its id
+
+// BAD_DATA with a sentence if the species is not one particle beside a bath, or the axis not there.
+Status tracer_check(const Pull *pull, const System *system);
+// BAD_DATA with a sentence if a strongly pulled tracer would come into its own wake.
+Status tracer_check_box(const Pull *pull, const System *system);
+
+// From masses, as a thermostat gives them; else from the shapes, as Monte Carlo takes them: the
+// free diffusion coefficient of the tracer, in D0.
+double tracer_free_diffusion(const Pull *pull, const System *system, bool thermostatted);
