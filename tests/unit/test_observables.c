@@ -176,7 +176,7 @@ END_TEST
 static System system_with(const ObservableKind *kind, int64_t particles, Clock *clock) {
     static const Drive steady = {.flow = {.rate = 0.5}};
     static const Drive oscillating = {.flow = {.oscillation = {0.1, 0.125}}}; // 20 steps a cycle
-    static const Drive pulled = {.pull = {.species = "small", .peclet = 1}};
+    static const Drive pulled = {.pull = {.species = "small", .peclet = 0.05}};
     static const struct {
         bool flies;
         const Drive *drive;
