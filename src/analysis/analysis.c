@@ -63,6 +63,7 @@ static const struct {
     {"advected_scattering_normalised", .alone = derive_kohlrausch},
     {"advected_scattering_normalised", .alone = derive_transient},
     {"collective_scattering_ends", .alone = derive_normalised_scattering},
+    {"collective_scattering_about_centre_ends", .alone = derive_centred_scattering},
     {"collective_scattering_normalised", .alone = derive_factorisation},
     {"collective_scattering_normalised", .alone = derive_kohlrausch},
     {"collective_scattering_normalised", .alone = derive_scaled},

@@ -95,12 +95,12 @@ static double ratio(double first, double second, double constant) {
     return first / second;
 }
 
-Status derive_normalised_scattering(Results *results, const ResultSeries *ends) {
-    const ResultSeries *scattering =
-        results_find_series(results, ends->stage, "collective_scattering");
+static Status normalise(Results *results, const ResultSeries *ends, const char *observable,
+                        const char *name) {
+    const ResultSeries *scattering = results_find_series(results, ends->stage, observable);
     if (!scattering || scattering->size != ends->size) return OK;
     const Function function = {
-        .name = "collective_scattering_normalised",
+        .name = name,
         .about = "Collective intermediate scattering functions over structure factors, "
                  "F_ab(q,t)/S_ab(q), both of the same configurations.",
         .first = scattering,
@@ -108,6 +108,15 @@ Status derive_normalised_scattering(Results *results, const ResultSeries *ends) 
         .constant_of = no_constant,
         .of = ratio};
     return put(results, &function, NULL);
+}
+
+Status derive_normalised_scattering(Results *results, const ResultSeries *ends) {
+    return normalise(results, ends, "collective_scattering", "collective_scattering_normalised");
+}
+
+Status derive_centred_scattering(Results *results, const ResultSeries *ends) {
+    return normalise(results, ends, "collective_scattering_about_centre",
+                     "collective_scattering_centred");
 }
 
 // Over the structure factor of the time origins: where the flow takes q, there is another.

@@ -34,6 +34,7 @@ Status derive_shift(Results *results, const ResultSeries *scattering);
 Status derive_scaled(Results *results, const ResultSeries *scattering);
 Status derive_kohlrausch(Results *results, const ResultSeries *scattering);
 Status derive_normalised_scattering(Results *results, const ResultSeries *ends);
+Status derive_centred_scattering(Results *results, const ResultSeries *ends);
 Status derive_normalised_advected(Results *results, const ResultSeries *scattering);
 Status derive_exponent(Results *results, const ResultSeries *displacement);
 Status derive_transient(Results *results, const ResultSeries *waited);

@@ -88,6 +88,30 @@ static Status read_one_species(const Node *node, Species *species) {
     return read_section(name, &species_options, species, NULL, node, true);
 }
 
+// The one that has left out its fraction is what the others leave.
+static Status fill_fraction(const Node *map, System *system) {
+    const Node *open = NULL;
+    Species *rest = NULL, *species = system->species;
+    double sum = 0;
+    for (const Node *node = map->first; node; node = node->next, species++) {
+        sum += species->fraction;
+        if (tree_find(node, "fraction")) continue;
+        if (open)
+            return tree_fail(node,
+                             "species '%s' and '%s' have no fraction; one at most may leave "
+                             "it out",
+                             open->key, node->key);
+        open = node;
+        rest = species;
+    }
+    if (!open) return OK;
+    if (!(sum < 1))
+        return tree_fail(open, "species '%s' has no fraction, and those of the others add to %.10g",
+                         open->key, sum);
+    rest->fraction = 1 - sum;
+    return OK;
+}
+
 static Status read_species(const Node *map, System *system) {
     if (map->kind != NODE_MAP || map->count == 0)
         return tree_fail(map, "species is a map from names to particles, such as "
@@ -98,7 +122,7 @@ static Status read_species(const Node *map, System *system) {
         TRY(read_one_species(node, &system->species[system->species_count]));
         system->species_count++;
     }
-    return OK;
+    return fill_fraction(map, system);
 }
 
 static Status read_system(const Node *root, System *system) {

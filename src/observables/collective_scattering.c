@@ -6,6 +6,7 @@
 // Beside each lag stands S_ab over the very configurations at its two ends: the difference to F_ab
 // is then <|rho(t) - rho(0)|^2>/(2N), which knows the little that has changed as well as the much.
 #include "base/memory.h"
+#include "observables/frame.h"
 #include "observables/history.h"
 #include "observables/labels.h"
 #include "observables/put.h"
@@ -18,6 +19,7 @@ typedef struct CollectiveSettings {
     OptionReals wave_numbers;
     double width;
     int64_t vectors;
+    int64_t frame;
     LagSettings lags;
 } CollectiveSettings;
 
@@ -39,12 +41,14 @@ static const Option rows[] = {
      .most = 100000,
      .unit = "",
      .about = "Most wave vectors in a shell, q and -q counted once; 0 takes all."},
+    FRAME_OPTION(CollectiveSettings, frame),
     LAG_OPTIONS_OF(CollectiveSettings, lags, 10, 16), // a look costs some intervals of the engine
     WAITING_OPTIONS(CollectiveSettings, lags),
 };
 
 typedef struct Collective {
     Observer observer;
+    int64_t frame;
     size_t pairs;
     WaveVectors vectors;
     WaveModes modes;
@@ -94,6 +98,7 @@ static Status check(const Settings *settings_, const System *system, const Clock
     Shell shells[OPTION_LIST_SIZE];
     TRY(wave_vectors_check_rest("collective_scattering", "advected_scattering", clock));
     TRY(wave_numbers_check("collective_scattering", &settings->wave_numbers, system));
+    TRY(frame_check("collective_scattering", settings->frame, clock));
     const size_t count = shells_of(settings, system, shells);
     for (size_t k = 1; k < count; k++) {
         if (shells[k].low >= shells[k - 1].high) continue;
@@ -150,6 +155,7 @@ static Status create(Observer **out, const Settings *settings_, const State *sta
     Collective *self = NULL;
     TRY(NEW(self));
     self->observer = (Observer){.kind = &observable_collective_scattering, .clock = *clock};
+    self->frame = settings->frame;
     const Lags lags = lags_chosen(&settings->lags, clock);
     const Status status = allocate(self, settings, state, &lags);
     if (status != OK) {
@@ -179,6 +185,11 @@ static void add_row(Collective *self, size_t row, const double *then) {
 static void look(Collective *self, const State *state) {
     double *products = self->now + self->modes.width;
     wave_modes_find(&self->modes, state, self->now);
+    if (self->frame == FRAME_CENTRE_OF_MASS) {
+        double centre[3];
+        frame_centre(self->frame, state, centre);
+        wave_modes_shift(&self->modes, &state->box, centre, self->now);
+    }
     memset(products, 0, row_size(self) * sizeof *products);
     add_products(self, self->now, products);
 }
@@ -280,7 +291,9 @@ static size_t time_axes(const Collective *self, double *times, ResultAxis *axes)
 
 static Status put(const Collective *self, const State *state, const Labels *pairs, double *times,
                   double *values, Results *results, size_t replica) {
-    static const char *const names[] = {"collective_scattering", "collective_scattering_ends"};
+    static const char *const names[][2] = {
+        {"collective_scattering", "collective_scattering_ends"},
+        {"collective_scattering_about_centre", "collective_scattering_about_centre_ends"}};
     static const char *const abouts[] = {
         "Collective intermediate scattering functions F_ab(q,t) = <rho_a*(0) rho_b(t)>/N; total: "
         "their sum over all ordered pairs; at t = 0 the structure factor.",
@@ -297,7 +310,8 @@ static Status put(const Collective *self, const State *state, const Labels *pair
     for (size_t k = 0; k < 2; k++) {
         snprintf(shape.about, sizeof shape.about, "%s", abouts[k]);
         fill(self, k == 1, state->count, values);
-        TRY(observer_put_series(&self->observer, names[k], &shape, results, replica, values));
+        TRY(observer_put_series(&self->observer, names[self->frame][k], &shape, results, replica,
+                                values));
     }
     return OK;
 }

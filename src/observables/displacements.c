@@ -41,12 +41,14 @@ void displacements_archive(Displacements *d, Archive *archive) {
 }
 
 void displacements_look(Displacements *d, const State *state) {
+    double centre[3];
+    frame_centre(d->frame, state, centre);
     for (int a = 0; a < d->dimension; a++) {
         size_t particle = 0;
         for (size_t s = 0; s < d->species_count; s++) {
             double *now = d->now + (size_t)a * d->lanes + d->begin[s];
             for (size_t i = 0; i < d->population[s]; i++)
-                now[i] = state_unfolded(state, a, particle++);
+                now[i] = state_unfolded(state, a, particle++) - centre[a];
         }
     }
     d->now[(size_t)d->dimension * d->lanes] = box_strain(&state->box);

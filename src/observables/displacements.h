@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Displacements of all particles since the time origins, species by species, in the layout that
 // vector units want: [dimension][lane], the particles of each species from a multiple of LANES on;
-// the lanes that are left over stay at zero. Coordinates are unfolded; the drift of the centre of
-// mass is left in. Under shear they are the non-affine displacements (Weysser, thesis, eq. 5.64):
-// what the flow has done since the origin, strain times y as it is now, is taken from x.
+// the lanes that are left over stay at zero. Coordinates are unfolded and seen from the box
+// or from the centre of mass (frame.h). Under shear they are the non-affine displacements (Weysser,
+// thesis, eq. 5.64): what the flow has done since the origin, strain times y as it is now, is taken
+// from x.
 #pragma once
 
 #include "numerics/turn.h"
+#include "observables/frame.h"
 #include "observables/history.h"
 
 typedef struct Displacements {
     History history; // of unfolded coordinates
+    int64_t frame;   // set before it is made
     int dimension;
     size_t species_count;
     size_t population[SPECIES_MOST];

@@ -17,6 +17,7 @@
 typedef struct SelfSettings {
     OptionReals wave_numbers;
     uint64_t directions; // a bit for each of direction_names
+    int64_t frame;
     LagSettings lags;
 } SelfSettings;
 
@@ -44,6 +45,7 @@ static const Option rows[] = {
      .about = "Directions of the wave vector, beside their mean; empty: all that there are, x, y, "
               "xy and -xy in two dimensions.",
      .choices = direction_names},
+    FRAME_OPTION(SelfSettings, frame),
     LAG_OPTIONS_OF(SelfSettings, lags, 10, 32),
     WAITING_OPTIONS(SelfSettings, lags),
 };
@@ -69,6 +71,7 @@ static uint64_t directions_there(int64_t dimension) {
 static Status check(const Settings *settings_, const System *system, const Clock *clock) {
     const SelfSettings *settings = settings_in(settings_);
     TRY(wave_numbers_check("self_scattering", &settings->wave_numbers, system));
+    TRY(frame_check("self_scattering", settings->frame, clock));
     if (settings->directions & ~directions_there(system->dimension)) {
         return status_fail(BAD_DATA, "self_scattering: there is no direction with z in two "
                                      "dimensions; leave it out");
@@ -124,6 +127,7 @@ static Status create(Observer **out, const Settings *settings_, const State *sta
     choose_directions(self, settings->directions, state->system.dimension);
     self->motion = (Motion){.observer = {.kind = &observable_self_scattering, .clock = *clock},
                             .tag = SELF_TAG,
+                            .moves = {.frame = settings->frame},
                             .row_size = state->system.species_count * self->direction_count *
                                         (size_t)self->wave_numbers.count,
                             .add_row = add_row};
@@ -189,8 +193,10 @@ static Status put(const SelfScattering *self, const Labels *species, double *val
                   .values = self->wave_numbers.values}}};
     shape.axes += lags_axes(&self->motion.moves.history.lags, &self->motion.observer.clock, times,
                             shape.axis + shape.axes);
-    return observer_put_series(&self->motion.observer, "self_scattering", &shape, results, replica,
-                               values);
+    const bool centred = self->motion.moves.frame == FRAME_CENTRE_OF_MASS;
+    return observer_put_series(&self->motion.observer,
+                               centred ? "self_scattering_centred" : "self_scattering", &shape,
+                               results, replica, values);
 }
 
 static Status write(const Observer *observer, const State *state, Results *results,

@@ -4,6 +4,7 @@
 
 #include "base/constants.h"
 #include "base/memory.h"
+#include "numerics/turn.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -227,6 +228,35 @@ void wave_modes_find(const WaveModes *modes, const State *state, double *values)
         density_modes_add(modes->density, &state->box, state->position, begin, begin + counts[s],
                           real, real + vectors);
         begin += counts[s];
+    }
+}
+
+// What fraction of a turn q.centre is, of LANES vectors from `first` on; of those past the end, 0.
+static void turns_at(const DensityModes *density, const Box *box, const double centre[3],
+                     size_t first, Lanes *turns) {
+    *turns = (Lanes){0};
+    for (size_t k = 0; k < LANES && first + k < density->count; k++) {
+        double q[3];
+        wave_vector_of(box, &density->vectors[first + k], q);
+        (*turns)[k] = (q[0] * centre[0] + q[1] * centre[1] + q[2] * centre[2]) / (2 * PI);
+    }
+}
+
+void wave_modes_shift(const WaveModes *modes, const Box *box, const double centre[3],
+                      double *values) {
+    const size_t count = modes->density->count;
+    for (size_t first = 0; first < count; first += LANES) {
+        Lanes turns, cosine, sine;
+        turns_at(modes->density, box, centre, first, &turns);
+        turn_cosine_sine(&turns, &cosine, &sine);
+        for (size_t s = 0; s < modes->species_count; s++) {
+            double *real = values + 2 * s * count + first, *imaginary = real + count;
+            for (size_t k = 0; k < LANES && first + k < count; k++) {
+                const double x = real[k], y = imaginary[k];
+                real[k] = x * cosine[k] + y * sine[k];
+                imaginary[k] = y * cosine[k] - x * sine[k];
+            }
+        }
     }
 }
 

@@ -65,6 +65,10 @@ Status wave_modes_make(WaveModes *modes, const WaveVectors *vectors, const State
 void wave_modes_clear(WaveModes *modes);
 void wave_modes_find(const WaveModes *modes, const State *state, double *values);
 
+// The same of particles seen from a point: each mode times exp(-i q.centre).
+void wave_modes_shift(const WaveModes *modes, const Box *box, const double centre[3],
+                      double *values);
+
 // Adds Re rho_a*(q) rho_b(q) of every pair a <= b of species, rho_a of one set of modes and rho_b
 // of another, the mean of both ways round, to sums[pair][shell].
 void wave_modes_add_products(const WaveModes *modes, const WaveVectors *vectors, const double *one,

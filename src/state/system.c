@@ -47,8 +47,9 @@ static const Option species_rows[] = {
      "kT/(eta d^3)", "Free rotational diffusion coefficient of the body axis; 0: built in."},
     {"mass", OPTION_REAL, offsetof(Species, mass), 1, 1e-6, 1e6, "m",
      "Mass; the free diffusion coefficient of a species is inversely proportional to it."},
-    {"fraction", OPTION_REAL, offsetof(Species, fraction), 1, 0, 1, "",
-     "Share of this species in the number of particles; the shares add to 1."},
+    {"fraction", OPTION_REAL, offsetof(Species, fraction), 0, 0, 1, "",
+     "Share of this species in the number of particles; the shares add to 1. One species may leave "
+     "it out, and is what the others leave."},
     {"spread.distribution", OPTION_CHOICE, offsetof(Species, spread), SPREAD_NONE, 0, 0, "",
      "Distribution of the diameters of a polydisperse species.", spread_names},
     {"spread.width", OPTION_REAL, offsetof(Species, spread_width), 0, 0, 0.3, "",

@@ -6,6 +6,7 @@
 
 #include "base/constants.h"
 #include "numerics/fit.h"
+#include "observables/frame.h"
 
 static const double SIGMAS = 4;
 
@@ -198,11 +199,62 @@ START_TEST(any_interaction_leaves_the_first_slope) {
 }
 END_TEST
 
+enum { FEW = 25 };
+
+// Seen from the box or from the centre of mass: the same trajectories.
+static Results *few_discs(int64_t frame) {
+    Plan *plan = new_plan(system_of(2, FEW, 0.6, 2), 0.05, 20, 20, 32);
+    const OptionReals q = {.count = 1, .values = {5}};
+    const ObservableKind *kinds[] = {&observable_self_scattering,
+                                     &observable_collective_scattering};
+    for (int k = 0; k < 2; k++) {
+        Settings *settings = observe(plan, kinds[k]);
+        set_number(settings, &kinds[k]->options, "times.first", 0.0125);
+        set_number(settings, &kinds[k]->options, "times.last", 1.25);
+        set_number(settings, &kinds[k]->options, "times.per_decade", 2);
+        set_number(settings, &kinds[k]->options, "frame", (double)frame);
+        set_wave_numbers(settings, q);
+    }
+    set_number(&plan->stages[1].observations[1].settings, &observable_collective_scattering.options,
+               "shell.width", 1);
+    return simulate(plan);
+}
+
+// The centre of mass diffuses freely and independently of all that is seen from it: exp(-q^2 t/N),
+// q being that of the vector and not of its shell, is all that the frame of the box adds.
+START_TEST(the_centre_of_mass_diffuses_freely) {
+    Results *box = few_discs(FRAME_BOX), *centre = few_discs(FRAME_CENTRE_OF_MASS);
+    static const char *const names[2][2] = {
+        {"self_scattering", "self_scattering_centred"},
+        {"collective_scattering_normalised", "collective_scattering_centred"}};
+    for (int k = 0; k < 2; k++) {
+        const ResultSeries *seen[2] = {series_of(box, "measured", names[k][0]),
+                                       series_of(centre, "measured", names[k][1])};
+        const ResultAxis *time = &seen[0]->axis[seen[0]->axes - 1];
+        const double q = seen[0]->axis[seen[0]->axes - 2].values[0];
+        const size_t begin = seen[0]->size - time->count; // of all species, the mean direction
+        for (size_t t = time->count - 3; t < time->count; t++) {
+            const double factor = exp(-q * q * time->values[t] / FEW);
+            for (size_t r = 0; r < box->replicas; r++) {
+                const size_t at = r * seen[0]->size + begin + t;
+                results_put_scalar(box, "measured", k ? "together" : "alone", "", "", r,
+                                   seen[0]->values[at] - factor * seen[1]->values[at] + 1);
+            }
+            expect_within("1 + what is seen from the box less what the centre's diffusion leaves",
+                          measured(box, k ? "together" : "alone"), 1, 0, SIGMAS, 0.02);
+        }
+    }
+    results_free(box);
+    results_free(centre);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("scattering");
     ADD_CASE(suite, free_particles_scatter_exponentially, 1);
     ADD_CASE(suite, free_particles_have_gaussian_displacements, 1);
     ADD_CASE(suite, free_particles_do_not_move_together, 1);
     ADD_CASE(suite, any_interaction_leaves_the_first_slope, 1);
+    ADD_CASE(suite, the_centre_of_mass_diffuses_freely, 1);
     return run_suite(suite);
 }

@@ -5,6 +5,7 @@
 
 #include "analysis/analysis.h"
 #include "base/constants.h"
+#include "observables/frame.h"
 #include "observables/lags.h"
 #include "observables/versines.h"
 
@@ -314,6 +315,48 @@ START_TEST(collective_scattering_begins_at_the_structure_factor) {
 }
 END_TEST
 
+// The same walk, of particles that are carried along besides.
+static void walk_adrift(State *state, int64_t tick) {
+    static const double drift[3] = {0.31, -0.17, 0.08}; // every tick
+    for (int a = 0; a < state->box.dimension; a++) {
+        for (size_t i = 0; i < WALKERS; i++)
+            fold(state, a, i, walk[tick][a][i] + drift[a] * (double)tick);
+    }
+}
+
+// What is seen from the centre of mass does not know what carries all particles along: the walk at
+// rest and adrift look the same. _i: bit 0 dimension, bit 1 collective.
+START_TEST(drift_is_not_seen_from_the_centre_of_mass) {
+    const bool together = _i & 2;
+    const ObservableKind *kind =
+        together ? &observable_collective_scattering : &observable_self_scattering;
+    const char *name = together ? "collective_scattering_about_centre" : "self_scattering_centred";
+    static const Mover movers[2] = {walk_to, walk_adrift};
+    const System system = system_of(2 + (_i & 1), WALKERS, 0.2, WALK_SPECIES);
+    const Clock clock = clock_of(WALK_TICKS, 2);
+    Settings settings = settings_of(&kind->options);
+    set_list(&settings, kind, "wave_numbers", (OptionReals){2, {1.5, 2.9}});
+    if (together) set_number(&settings, &kind->options, "shell.width", 0.9);
+    set_number(&settings, &kind->options, "frame", FRAME_CENTRE_OF_MASS);
+    State *state = new_state(&system);
+    Results *results[2];
+    make_walk(state);
+    ck_assert_int_eq(kind->check(&settings, &system, &clock), OK);
+    for (int k = 0; k < 2; k++) {
+        Observer *observer = new_observer(kind, &settings, state, &clock);
+        watch(observer, state, movers[k], -1, WALK_TICKS);
+        results[k] = written(observer, state);
+        kind->free(observer);
+    }
+    const ResultSeries *rest = series_of(results[0], "quiescent", name);
+    const ResultSeries *adrift = series_of(results[1], "quiescent", name);
+    for (size_t e = 0; e < rest->size; e++)
+        ck_assert_double_eq_tol(adrift->values[e], rest->values[e], 1e-10);
+    for (int k = 0; k < 2; k++) results_free(results[k]);
+    state_free(state);
+}
+END_TEST
+
 static double length_of(const double *from_to[2][3], size_t i, int dimension) {
     double square = 0;
     for (int a = 0; a < dimension; a++) square += pow(from_to[1][a][i] - from_to[0][a][i], 2);
@@ -505,6 +548,7 @@ int main(void) {
     tcase_add_loop_test(c, self_scattering_agrees_with_its_slow_twin, 0, 4);
     tcase_add_loop_test(c, collective_scattering_agrees_with_its_slow_twin, 0, 4);
     tcase_add_loop_test(c, collective_scattering_begins_at_the_structure_factor, 0, 2);
+    tcase_add_loop_test(c, drift_is_not_seen_from_the_centre_of_mass, 0, 4);
     tcase_add_loop_test(c, moments_agree_with_their_slow_twin, 0, 4);
     tcase_add_loop_test(c, overlap_agrees_with_its_slow_twin, 0, 4);
     tcase_add_loop_test(c, van_hove_function_agrees_with_its_slow_twin, 0, 4);
