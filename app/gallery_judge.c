@@ -110,43 +110,86 @@ static Status write_measured(const Judgement *judgement) {
     return close_table(table, judgement->run, "measured.csv");
 }
 
-// Least squares of a straight line through the points of a curve, weighted by their errors: where
-// it meets x = 0.
-static Status extrapolate(const Judgement *judgement, const char *curve, const char *measure,
-                          Measured *out) {
-    double weights = 0, x = 0, y = 0, xx = 0, xy = 0;
+// A straight line through points, by least squares weighted by their errors.
+typedef struct Line {
+    double weights, x, y, xx, xy;
+} Line;
+
+static void line_add(Line *line, double x, double y, double error) {
+    const double weight = 1 / (error * error);
+    line->weights += weight;
+    line->x += weight * x;
+    line->y += weight * y;
+    line->xx += weight * x * x;
+    line->xy += weight * x * y;
+}
+
+static double line_determinant(const Line *line) {
+    return line->weights * line->xx - line->x * line->x;
+}
+
+// Where the line meets x = 0.
+static Estimate line_at_origin(const Line *line) {
+    const double determinant = line_determinant(line);
+    return (Estimate){.value = (line->xx * line->y - line->x * line->xy) / determinant,
+                      .error = sqrt(line->xx / determinant)};
+}
+
+static Estimate line_slope(const Line *line) {
+    const double determinant = line_determinant(line);
+    return (Estimate){.value = (line->weights * line->xy - line->x * line->y) / determinant,
+                      .error = sqrt(line->weights / determinant)};
+}
+
+// What may be asked of a curve as a whole: where a straight line through its points meets x = 0,
+// and the exponent of a power law through them, a straight line in logarithms.
+static const struct {
+    const char *ending;
+    bool logarithms;
+    Estimate (*of)(const Line *line);
+} of_curves[] = {{"@0", false, line_at_origin}, {"@power", true, line_slope}};
+enum { OF_CURVES = sizeof of_curves / sizeof *of_curves };
+
+static Status ask_curve(const Judgement *judgement, const char *curve, const char *measure,
+                        size_t what, Measured *out) {
+    Line line = {0};
     for (size_t i = 0; i < judgement->count; i++) {
         const Measured *at = &judgement->measured[i];
         if (strcmp(at->curve, curve) != 0 || strcmp(at->measure, measure) != 0) continue;
-        const double weight = 1 / (at->estimate.error * at->estimate.error);
-        weights += weight;
-        x += weight * at->x;
-        y += weight * at->estimate.value;
-        xx += weight * at->x * at->x;
-        xy += weight * at->x * at->estimate.value;
+        const double y = at->estimate.value, error = at->estimate.error;
+        if (of_curves[what].logarithms)
+            line_add(&line, log(at->x), log(y), error / y);
+        else
+            line_add(&line, at->x, y, error);
     }
-    const double determinant = weights * xx - x * x;
-    if (!(determinant > 0)) {
-        return status_fail(BAD_DATA, "%s of %s cannot be extrapolated: two points are needed",
-                           measure, curve);
+    if (!(line_determinant(&line) > 0)) {
+        return status_fail(BAD_DATA,
+                           "%s%s of %s: two points are needed, for a power law of positive values",
+                           curve, of_curves[what].ending, measure);
     }
-    *out = (Measured){.point = curve, .curve = curve, .measure = measure};
-    out->estimate.value = (xx * y - x * xy) / determinant;
-    out->estimate.error = sqrt(xx / determinant);
+    *out = (Measured){
+        .point = curve, .curve = curve, .measure = measure, .estimate = of_curves[what].of(&line)};
     return OK;
 }
 
-// The value of a point; of a curve where it meets x = 0, as "CURVE@0".
+// The curve that this subject begins with, if it then says what is asked of it.
+static const char *curve_asked(const Judgement *judgement, const char *subject, size_t *what) {
+    for (size_t row = 0; row < judgement->points->rows; row++) {
+        const char *curve = csv_cell(judgement->points, row, "curve");
+        const size_t length = strlen(curve);
+        if (strncmp(curve, subject, length) != 0) continue;
+        for (*what = 0; *what < OF_CURVES; ++*what)
+            if (strcmp(subject + length, of_curves[*what].ending) == 0) return curve;
+    }
+    return NULL;
+}
+
+// The value of a point; of a curve as "CURVE@0" or "CURVE@power".
 static Status find_measured(const Judgement *judgement, const char *subject, const char *measure,
                             Measured *out) {
-    const size_t length = strlen(subject);
-    if (length > 2 && strcmp(subject + length - 2, "@0") == 0) {
-        for (size_t row = 0; row < judgement->points->rows; row++) {
-            const char *curve = csv_cell(judgement->points, row, "curve");
-            if (strlen(curve) != length - 2 || strncmp(curve, subject, length - 2) != 0) continue;
-            return extrapolate(judgement, curve, measure, out);
-        }
-    }
+    size_t what = 0;
+    const char *curve = curve_asked(judgement, subject, &what);
+    if (curve) return ask_curve(judgement, curve, measure, what, out);
     for (size_t i = 0; i < judgement->count; i++) {
         *out = judgement->measured[i];
         if (strcmp(out->point, subject) == 0 && strcmp(out->measure, measure) == 0) return OK;

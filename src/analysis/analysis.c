@@ -85,6 +85,7 @@ static const struct {
     {"contact_stress", .with = derive_contact_stress},
     {"contact_directions", .alone = derive_contact_angles},
     {"stress_wandering", .with = derive_viscosity},
+    {"stress_wandering", .with = derive_moduli},
     {"tracer_passage", .alone = derive_friction},
 };
 

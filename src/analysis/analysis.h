@@ -32,7 +32,7 @@
 //   third_harmonic, fifth_harmonic        of stress_harmonics
 //   shear_stress_contact, normal_stress_difference_contact, pressure_contact   of contact_stress
 //   contact_angle, a series                                        of contact_directions
-//   zero_shear_viscosity and _window; viscosity, a series          of stress_wandering
+//   zero_shear_viscosity and _window; viscosity and moduli_at_rest, series   of stress_wandering
 // With several species, diffusion is given for all particles and, with _NAME, for each species.
 Status analysis_derive(Results *results, const System *system);
 
@@ -52,4 +52,7 @@ Status analysis_judge(Results *results, const Plan *plan);
 //   OBSERVABLE_critical_scan, a series over the first packing fraction used
 // of OBSERVABLE_scaled:  OBSERVABLE_scaled_spread, over scaled times
 // of OBSERVABLE_plateau: OBSERVABLE_plateau_critical, _plateau_amplitude
+// and of shear_stress over an axis of shear rates:
+//   yield_stress, flow_curve_amplitude, flow_curve_exponent        the exponent free
+//   yield_stress_at, a series over exponents                       the exponent given
 Status analysis_derive_sweep(Results *results);

@@ -44,5 +44,6 @@ Status derive_harmonics(Results *results, const ResultSeries *moduli);
 Status derive_contact_stress(Results *results, const ResultSeries *series, const System *system);
 Status derive_contact_angles(Results *results, const ResultSeries *series);
 Status derive_viscosity(Results *results, const ResultSeries *wandering, const System *system);
+Status derive_moduli(Results *results, const ResultSeries *wandering, const System *system);
 Status derive_friction(Results *results, const ResultSeries *passage);
 Status derive_susceptibility(Results *results, const ResultSeries *square, const System *system);

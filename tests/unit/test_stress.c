@@ -71,6 +71,39 @@ START_TEST(viscosity_is_the_slope_of_the_wandering) {
 }
 END_TEST
 
+// One relaxation time: G(t) = exp(-t), G' = w^2/(1 + w^2), G'' = w/(1 + w^2).
+START_TEST(moduli_follow_from_the_wandering) {
+    enum { LAGS = 51 };
+    const System system = system_of(2, 50, 0.3, 1);
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    double times[LAGS], values[LAGS];
+    for (int k = 0; k < LAGS; k++) {
+        times[k] = pow(10, -3 + 0.1 * k);
+        values[k] = times[k] - (1 - exp(-times[k]));
+    }
+    const ResultSeries shape = {
+        .stage = "rest",
+        .observable = "stress_wandering",
+        .axes = 1,
+        .axis = {{.name = "time", .unit = "d^2/D0", .count = LAGS, .values = times}}};
+    ck_assert_int_eq(results_put_series(results, &shape, 0, values), OK);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    const ResultSeries *moduli = series_of(results, "rest", "moduli_at_rest");
+    const ResultAxis *frequency = &moduli->axis[1];
+    ck_assert_double_eq_tol(frequency->values[0], 0.01, 1e-12); // the inverse of the last lag
+    ck_assert_double_eq_tol(frequency->values[frequency->count - 1], 1000, 1e-9);
+    for (size_t k = 0; k < frequency->count; k++) {
+        const double w = frequency->values[k], elastic = w * w / (1 + w * w), viscous = elastic / w;
+        const double size = hypot(elastic, viscous);
+        ck_assert_double_eq_tol(moduli->values[k], elastic, 0.005 * size + 0.0005 * w);
+        ck_assert_double_eq_tol(moduli->values[frequency->count + k], viscous,
+                                0.005 * size + 0.0005 * w);
+    }
+    results_free(results);
+}
+END_TEST
+
 // Two discs that all but touch, across the edge of the box, in a direction: the stress they carry,
 // and the sector that they are counted in.
 START_TEST(pairs_press_along_the_line_between_them) {
@@ -215,6 +248,7 @@ static Suite *suite(void) {
     TCase *c = tcase_create("stress");
     tcase_add_test(c, steady_stress_wanders_as_the_square_of_time);
     tcase_add_test(c, viscosity_is_the_slope_of_the_wandering);
+    tcase_add_test(c, moduli_follow_from_the_wandering);
     tcase_add_loop_test(c, pairs_press_along_the_line_between_them, 0, 8);
     tcase_add_test(c, start_up_shows_its_overshoot);
     tcase_add_test(c, harmonics_of_an_oscillation_are_found);

@@ -194,6 +194,65 @@ START_TEST(one_master_curve_has_no_spread) {
 }
 END_TEST
 
+// A liquid without and a glass with a yield stress; `noise` in stress.
+static Results *flow_curves(double noise) {
+    enum { GLASSES = 2, RATES = 6 };
+    static const double phi[GLASSES] = {0.70, 0.80}, yield[GLASSES] = {0, 0.3},
+                        exponent[GLASSES] = {1, 0.45};
+    static const double rates[RATES] = {0.001, 0.01, 0.05, 0.2, 1, 5};
+    Results *results = new_results();
+    Rng rng = rng_open((RngKey){.seed = 6}, STREAM_PACKING, 0, 0);
+    const ResultSeries shape = {
+        .stage = "flow",
+        .observable = "shear_stress",
+        .unit = "kT/d^2",
+        .axes = 2,
+        .axis = {{.name = "packing_fraction", .unit = "", .count = GLASSES, .values = phi},
+                 {.name = "shear_rate", .unit = "D0/d^2", .count = RATES, .values = rates}}};
+    for (size_t r = 0; r < REPLICAS; r++) {
+        double stress[GLASSES][RATES];
+        for (int s = 0; s < GLASSES; s++) {
+            for (int k = 0; k < RATES; k++) {
+                stress[s][k] = yield[s] + 2 * pow(rates[k], exponent[s]);
+                stress[s][k] += noise * rng_normal(&rng);
+            }
+        }
+        ck_assert_int_eq(results_put_series(results, &shape, r, &stress[0][0]), OK);
+    }
+    ck_assert_int_eq(analysis_derive_sweep(results), OK);
+    return results;
+}
+
+static Estimate flow_found(const Results *results, const char *quantity, size_t element) {
+    return results_series_estimate(results, series_of(results, "flow", quantity), element);
+}
+
+START_TEST(a_yield_stress_is_found_and_its_absence) {
+    Results *results = flow_curves(1e-9);
+    ck_assert_double_eq_tol(flow_found(results, "yield_stress", 0).value, 0, 1e-6);
+    ck_assert_double_eq_tol(flow_found(results, "yield_stress", 1).value, 0.3, 1e-6);
+    ck_assert_double_eq_tol(flow_found(results, "flow_curve_amplitude", 1).value, 2, 1e-6);
+    ck_assert_double_eq_tol(flow_found(results, "flow_curve_exponent", 0).value, 1, 1e-6);
+    ck_assert_double_eq_tol(flow_found(results, "flow_curve_exponent", 1).value, 0.45, 1e-6);
+    const ResultSeries *given = series_of(results, "flow", "yield_stress_at");
+    ck_assert_uint_eq(given->axis[1].count, 10);
+    ck_assert_double_eq_tol(results_series_estimate(results, given, 9).value, 0, 1e-6);
+    ck_assert_double_gt(results_series_estimate(results, given, 15).value, 0.31); // 0.6: too steep
+    ck_assert_str_eq(given->unit, "kT/d^2");
+    results_free(results);
+}
+END_TEST
+
+START_TEST(a_yield_stress_has_the_error_it_says) {
+    Results *results = flow_curves(0.02);
+    const Estimate yield = flow_found(results, "yield_stress", 1);
+    ck_assert_double_gt(yield.error, 0.004); // that of a single stress is 0.007
+    ck_assert_double_lt(yield.error, 0.04);
+    ck_assert_double_eq_tol(yield.value, 0.3, 4 * yield.error);
+    results_free(results);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("sweep_laws");
     TCase *c = tcase_create("sweep_laws");
@@ -204,6 +263,8 @@ int main(void) {
     tcase_add_test(c, times_before_the_plateau_are_left_alone);
     tcase_add_test(c, plateaus_of_a_glass_rise_as_a_square_root);
     tcase_add_test(c, one_master_curve_has_no_spread);
+    tcase_add_test(c, a_yield_stress_is_found_and_its_absence);
+    tcase_add_test(c, a_yield_stress_has_the_error_it_says);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);
