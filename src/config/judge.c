@@ -111,12 +111,9 @@ static Status judge_sizes(const Node *node, const Species *species) {
     return OK;
 }
 
-static Status judge_species(const Node *map, const System *system) {
-    double sum = 0;
-    size_t counts[SPECIES_MOST];
+static Status judge_species(const Node *root, const Node *map, const System *system) {
     for (size_t s = 0; s < system->species_count; s++) {
         const ShapeKind shape = (ShapeKind)system->species[s].shape;
-        sum += system->species[s].fraction;
         if (shape_dimension(shape) != (int)system->dimension)
             return tree_fail(place(nth(map, s), "shape", NULL),
                              "shape = %s lives in %d dimensions, but dimension = %d",
@@ -124,17 +121,7 @@ static Status judge_species(const Node *map, const System *system) {
         TRY(judge_sizes(nth(map, s), &system->species[s]));
         TRY(judge_spread(nth(map, s), &system->species[s]));
     }
-    if (!(fabs(sum - 1) <= FRACTIONS_OFF))
-        return tree_fail(map, "the fractions of the species add to %.10g; they must add to 1", sum);
-    system_counts(system, counts);
-    for (size_t s = 0; s < system->species_count; s++) {
-        if (counts[s] == 0)
-            return tree_fail(place(nth(map, s), "fraction", NULL),
-                             "fraction = %g of %g particles leaves none of species '%s'",
-                             system->species[s].fraction, (double)system->particles,
-                             system->species[s].name);
-    }
-    return OK;
+    return placed(root, map, system_check_counts(system));
 }
 
 // Smallest over largest diameter, as far as the widths of the spreads say.
@@ -196,7 +183,7 @@ static Status judge_density(const Node *root, const Node *map, const System *sys
 
 static Status judge_system(const Node *root, const System *system) {
     const Node *map = tree_find(root, "system");
-    TRY(judge_species(tree_find(map, "species"), system));
+    TRY(judge_species(root, tree_find(map, "species"), system));
     TRY(judge_density(root, map, system));
     if (system->aspect.count == 0 || system->aspect.count == system->dimension) return OK;
     return tree_fail(place(map, "box", "aspect"),

@@ -94,6 +94,7 @@ static Status fill_fraction(const Node *map, System *system) {
     Species *rest = NULL, *species = system->species;
     double sum = 0;
     for (const Node *node = map->first; node; node = node->next, species++) {
+        if (species->count > 0) continue;
         sum += species->fraction;
         if (tree_find(node, "fraction")) continue;
         if (open)

@@ -28,8 +28,8 @@ Status tracer_check(const Pull *pull, const System *system) {
         return status_fail(
             BAD_DATA,
             "pull = {species: %s}: these are %zu particles, and the force is on one, "
-            "the tracer; make it a species of its own with a fraction of %.6g",
-            pull->species, counts[s], 1 / (double)system->particles);
+            "the tracer; make it a species of its own with count: 1",
+            pull->species, counts[s]);
     if (s == 0)
         return status_fail(BAD_DATA,
                            "pull = {species: %s}: steps and times go by the first species, which "

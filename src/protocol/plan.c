@@ -84,14 +84,6 @@ Clock plan_clock(const Plan *plan, size_t stage) {
                    .drive = drive_kinds(&at->drive) ? &at->drive : NULL};
 }
 
-static Status check_fractions(const System *system) {
-    double sum = 0;
-    for (size_t s = 0; s < system->species_count; s++) sum += system->species[s].fraction;
-    if (system->species_count < 1) return status_fail(BAD_DATA, "a system needs a species");
-    if (fabs(sum - 1) <= 1e-9) return OK;
-    return status_fail(BAD_DATA, "the fractions of the species add to %.10g, not to 1", sum);
-}
-
 static Status check_shapes(const System *system) {
     for (size_t s = 0; s < system->species_count; s++) {
         const ShapeKind shape = (ShapeKind)system->species[s].shape;
@@ -103,7 +95,7 @@ static Status check_shapes(const System *system) {
 }
 
 static Status check_system(const System *system) {
-    TRY(check_fractions(system));
+    TRY(system_check_counts(system));
     TRY(check_shapes(system));
     if ((system->packing_fraction > 0) == (system->number_density > 0)) {
         return status_fail(BAD_DATA, "give packing_fraction or number_density, one of the two");

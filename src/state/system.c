@@ -6,6 +6,8 @@
 
 #include <math.h>
 
+static const double FRACTIONS_OFF = 1e-9; // how far their sum may be from 1
+
 const char *const spread_names[SPREADS + 1] = {"none", "gaussian", "uniform", NULL};
 const char *const start_names[STARTS + 1] = {"compressed", "crystal", NULL};
 
@@ -48,8 +50,11 @@ static const Option species_rows[] = {
     {"mass", OPTION_REAL, offsetof(Species, mass), 1, 1e-6, 1e6, "m",
      "Mass; the free diffusion coefficient of a species is inversely proportional to it."},
     {"fraction", OPTION_REAL, offsetof(Species, fraction), 0, 0, 1, "",
-     "Share of this species in the number of particles; the shares add to 1. One species may leave "
-     "it out, and is what the others leave."},
+     "Share of this species in the number of particles, of those that counts leave; the shares add "
+     "to "
+     "1. One species may leave it out, and is what the others leave."},
+    {"count", OPTION_INTEGER, offsetof(Species, count), 0, 0, 2e9, "",
+     "How many particles the species has, such as 1 of a tracer; 0: as its fraction says."},
     {"spread.distribution", OPTION_CHOICE, offsetof(Species, spread), SPREAD_NONE, 0, 0, "",
      "Distribution of the diameters of a polydisperse species.", spread_names},
     {"spread.width", OPTION_REAL, offsetof(Species, spread_width), 0, 0, 0.3, "",
@@ -58,13 +63,23 @@ static const Option species_rows[] = {
 const OptionTable species_options = {species_rows, sizeof species_rows / sizeof *species_rows,
                                      sizeof(Species)};
 
+// What the counts leave to the fractions.
+static int64_t left_to_share(const System *system) {
+    int64_t left = system->particles;
+    for (size_t s = 0; s < system->species_count; s++) left -= system->species[s].count;
+    return left;
+}
+
 void system_counts(const System *system, size_t counts[SPECIES_MOST]) {
     double remainder[SPECIES_MOST];
+    const double shared = (double)left_to_share(system);
     size_t placed = 0;
     for (size_t s = 0; s < system->species_count; s++) {
-        const double share = system->species[s].fraction * (double)system->particles;
+        const Species *species = &system->species[s];
+        const double share =
+            species->count > 0 ? (double)species->count : species->fraction * shared;
         counts[s] = (size_t)floor(share);
-        remainder[s] = share - floor(share);
+        remainder[s] = species->count > 0 ? -1 : share - floor(share);
         placed += counts[s];
     }
     for (; placed < (size_t)system->particles; placed++) {
@@ -75,6 +90,52 @@ void system_counts(const System *system, size_t counts[SPECIES_MOST]) {
         counts[most]++;
         remainder[most] = -1;
     }
+}
+
+static Status check_shares(const System *system) {
+    double sum = 0;
+    size_t sharing = 0;
+    for (size_t s = 0; s < system->species_count; s++) {
+        if (system->species[s].count > 0) continue;
+        sum += system->species[s].fraction;
+        sharing++;
+    }
+    const int64_t left = left_to_share(system);
+    if (sharing == 0 && left != 0)
+        return status_fail(BAD_DATA,
+                           "the counts of the species add to %lld, but particles = %lld; leave out "
+                           "one of the counts",
+                           (long long)(system->particles - left), (long long)system->particles);
+    if (sharing > 0 && left < (int64_t)sharing)
+        return status_fail(
+            BAD_DATA,
+            "the counts of the species leave %lld of %lld particles to those without "
+            "one; take more particles",
+            (long long)left, (long long)system->particles);
+    if (sharing == 0 || fabs(sum - 1) <= FRACTIONS_OFF) return OK;
+    return status_fail(BAD_DATA, "the fractions of the species add to %.10g; they must add to 1",
+                       sum);
+}
+
+Status system_check_counts(const System *system) {
+    size_t counts[SPECIES_MOST];
+    if (system->species_count < 1) return status_fail(BAD_DATA, "a system needs a species");
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Species *species = &system->species[s];
+        if (species->count > 0 && species->fraction != 0)
+            return status_fail(BAD_DATA,
+                               "fraction = %g: species '%s' has a count as well; one is enough",
+                               species->fraction, species->name);
+    }
+    TRY(check_shares(system));
+    system_counts(system, counts);
+    for (size_t s = 0; s < system->species_count; s++) {
+        if (counts[s] > 0) continue;
+        return status_fail(BAD_DATA, "fraction = %g of %g particles leaves none of species '%s'",
+                           system->species[s].fraction, (double)left_to_share(system),
+                           system->species[s].name);
+    }
+    return OK;
 }
 
 Body species_body(const Species *species) {

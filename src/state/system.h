@@ -26,7 +26,8 @@ typedef struct Species {
     double exponent;     // of a soft sphere
     Diffusion diffusion; // as the run file gives it; 0: built in
     double mass;         // in m: D_a = thermostat_interval kT/(2 m_a)
-    double fraction;     // of all particles, by number
+    int64_t count;       // of its particles; 0: by its fraction
+    double fraction;     // of the particles of all species without a count, by number
     int64_t spread;      // SpreadKind of the diameters
     double spread_width; // standard deviation over mean diameter (polydispersity)
 } Species;
@@ -47,8 +48,12 @@ extern const OptionTable species_options; // keys of one entry of `system.specie
 extern const char *const spread_names[SPREADS + 1];
 extern const char *const start_names[STARTS + 1];
 
-// How many particles of each species: largest remainders of fraction * particles, summing exactly.
+// How many particles of each species: its count, or the largest remainders of fraction * (what the
+// counts leave), summing exactly.
 void system_counts(const System *system, size_t counts[SPECIES_MOST]);
+
+// BAD_DATA with a sentence if counts and fractions do not share out all particles, some to each.
+Status system_check_counts(const System *system);
 
 Body species_body(const Species *species); // of the mean size
 bool system_is_oriented(const System *system);

@@ -151,6 +151,31 @@ START_TEST(species_counts_are_the_nearest_that_add_up) {
 }
 END_TEST
 
+START_TEST(counts_come_before_fractions) {
+    System system = binary_discs(11, 0.5);
+    system.species_count = 3;
+    system.species[2] = system.species[1];
+    system.species[2].count = 1;
+    system.species[2].fraction = 0;
+    size_t counts[SPECIES_MOST];
+    ck_assert_int_eq(system_check_counts(&system), OK);
+    system_counts(&system, counts);
+    ck_assert_uint_eq(counts[0], 5);
+    ck_assert_uint_eq(counts[1], 5);
+    ck_assert_uint_eq(counts[2], 1);
+    system.species[0].count = system.species[1].count = 5;
+    ck_assert_int_eq(system_check_counts(&system), BAD_DATA); // beside a fraction
+    system.species[0].fraction = system.species[1].fraction = 0;
+    ck_assert_int_eq(system_check_counts(&system), OK);
+    system.particles = 12;
+    ck_assert_int_eq(system_check_counts(&system), BAD_DATA); // one is nobody's
+    system.species[0].count = 0;
+    system.species[0].fraction = 1;
+    system.particles = 6;
+    ck_assert_int_eq(system_check_counts(&system), BAD_DATA); // nothing is left to share
+}
+END_TEST
+
 START_TEST(a_spread_of_sizes_raises_the_moments_as_it_must) {
     System system = binary_discs(1000, 0.5);
     system.species_count = 1;
@@ -266,6 +291,7 @@ int main(void) {
     tcase_add_test(all, second_virial_coefficients_are_half_the_excluded_volume);
     tcase_add_test(all, number_density_and_packing_fraction_say_the_same);
     tcase_add_test(all, species_counts_are_the_nearest_that_add_up);
+    tcase_add_test(all, counts_come_before_fractions);
     tcase_add_test(all, a_spread_of_sizes_raises_the_moments_as_it_must);
     tcase_add_test(all, cells_find_the_overlaps_that_all_pairs_find);
     tcase_add_test(all, a_state_is_loaded_to_the_bit_and_a_spoiled_one_is_refused);
