@@ -87,6 +87,7 @@ static const struct {
     {"stress_wandering", .with = derive_viscosity},
     {"stress_wandering", .with = derive_moduli},
     {"tracer_passage", .alone = derive_friction},
+    {"tracer_passage", .with = derive_friction_limits},
 };
 
 static Status derive_from(Results *results, size_t index, const System *system) {

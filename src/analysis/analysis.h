@@ -30,6 +30,9 @@
 //   four_point_susceptibility, a series                           of overlap and overlap_square
 //   overshoot_strain, _stress, _height    of stress against strain, where there is an overshoot
 //   third_harmonic, fifth_harmonic        of stress_harmonics
+//   tracer_velocity, effective_friction, _earlier, _later          of tracer_passage
+//   friction_weak, friction_strong, friction_weak_contact, friction_strong_contact: theory of the
+//   same, equal spheres only
 //   shear_stress_contact, normal_stress_difference_contact, pressure_contact   of contact_stress
 //   contact_angle, a series                                        of contact_directions
 //   zero_shear_viscosity and _window; viscosity and moduli_at_rest, series   of stress_wandering

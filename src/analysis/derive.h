@@ -46,4 +46,5 @@ Status derive_contact_angles(Results *results, const ResultSeries *series);
 Status derive_viscosity(Results *results, const ResultSeries *wandering, const System *system);
 Status derive_moduli(Results *results, const ResultSeries *wandering, const System *system);
 Status derive_friction(Results *results, const ResultSeries *passage);
+Status derive_friction_limits(Results *results, const ResultSeries *passage, const System *system);
 Status derive_susceptibility(Results *results, const ResultSeries *square, const System *system);

@@ -57,9 +57,16 @@ static size_t axis_to_draw_along(const ResultSeries *series) {
     return longest;
 }
 
+static bool is(const char *name, const ResultSeries *series) {
+    return name && strcmp(name, series->observable) == 0;
+}
+
 static bool stands_behind_another(const ResultSeries *series) {
     for (size_t i = 0; i < KINDS; i++) {
-        if (kinds[i].line && strcmp(kinds[i].line, series->observable) == 0) return true;
+        if (is(kinds[i].line, series)) return true;
+        for (size_t k = 0; k < FIGURE_LIMITS; k++) {
+            if (is(kinds[i].limit[k].observable, series)) return true;
+        }
     }
     return false;
 }
@@ -170,6 +177,14 @@ static void choose_upward(Figure *figure) {
     }
 }
 
+// Another series of the stage, if it has the shape of the figure's; NULL without.
+static const ResultSeries *beside(const Figure *figure, const char *observable) {
+    if (!observable) return NULL;
+    const ResultSeries *series =
+        results_find_series(figure->results, figure->series->stage, observable);
+    return series && same_shape(series, figure->series) ? series : NULL;
+}
+
 Figure figure_of(const Results *results, const ResultSeries *series) {
     const FigureKind *kind = figure_kind_of(series);
     const size_t along = axis_to_draw_along(series);
@@ -178,8 +193,10 @@ Figure figure_of(const Results *results, const ResultSeries *series) {
     figure.x = &series->axis[along];
     figure.stride = stride_of(series, along);
     if (kind && kind->upward) choose_upward(&figure);
-    if (kind && kind->line) figure.line = results_find_series(results, series->stage, kind->line);
-    if (figure.line && !same_shape(figure.line, series)) figure.line = NULL;
+    if (kind) figure.line = beside(&figure, kind->line);
+    for (size_t k = 0; kind && k < FIGURE_LIMITS; k++) {
+        figure.limit[k] = beside(&figure, kind->limit[k].observable);
+    }
     if (kind && kind->level) {
         figure.level = results_find_scalar(results, series->stage, kind->level);
     }
@@ -206,6 +223,12 @@ void figure_title(Text *text, const Figure *figure) {
     notation_name(text, name + 1);
 }
 
+size_t figure_columns(const Figure *figure) {
+    size_t columns = figure->line ? 3 : 2;
+    for (size_t k = 0; k < FIGURE_LIMITS; k++) columns += figure->limit[k] != NULL;
+    return columns;
+}
+
 bool figure_is_theory(const Figure *figure) { // stages of theories bear their section's name
     const char *stage = figure->series->stage;
     return strcmp(stage, "theory") == 0 || strcmp(stage, "schematic") == 0;
@@ -220,7 +243,7 @@ void figure_caption(Text *text, const Figure *figure) {
     const Results *results = figure->results;
     const FigureKind *kind = figure->kind;
     notation_unit(text, kind && kind->about ? kind->about : figure->series->about);
-    if ((figure->line || figure->level) && kind->about_line)
+    if ((figure->line || figure->level || figure->limit[0]) && kind->about_line)
         text_add(text, " %s", kind->about_line);
     if (results->replicas > 1 && figure->y) {
         text_add(text, " Mean over %zu replicas.", results->replicas);
@@ -247,8 +270,25 @@ static void numbers_header(Text *csv, const Figure *figure) {
         const char *title = figure->curve[c].title[0] ? figure->curve[c].title : "value";
         text_add(csv, ",\"%s\",\"%s error\"", title, title);
         if (figure->line) text_add(csv, ",\"%s %s\"", title, figure->kind->line_title);
+        for (size_t k = 0; k < FIGURE_LIMITS; k++) {
+            if (!figure->limit[k]) continue;
+            text_add(csv, ",\"%s %s\"", title, figure->kind->limit[k].observable);
+        }
     }
     text_put(csv, "\n");
+}
+
+static void put_point(Text *csv, const Figure *figure, size_t element) {
+    const Results *results = figure->results;
+    const Estimate point = results_series_estimate(results, figure->series, element);
+    put_number(csv, point.value);
+    put_number(csv, point.error);
+    if (figure->line)
+        put_number(csv, results_series_estimate(results, figure->line, element).value);
+    for (size_t k = 0; k < FIGURE_LIMITS; k++) {
+        if (!figure->limit[k]) continue;
+        put_number(csv, results_series_estimate(results, figure->limit[k], element).value);
+    }
 }
 
 void figure_numbers(Text *csv, const Figure *figure) {
@@ -257,13 +297,7 @@ void figure_numbers(Text *csv, const Figure *figure) {
         char digits[NUMBER_SIZE];
         text_put(csv, number_write(digits, figure->x->values[i]));
         for (size_t c = 0; c < figure->curve_count; c++) {
-            const size_t element = figure->curve[c].first + i * figure->stride;
-            const Results *results = figure->results;
-            const Estimate point = results_series_estimate(results, figure->series, element);
-            put_number(csv, point.value);
-            put_number(csv, point.error);
-            if (!figure->line) continue;
-            put_number(csv, results_series_estimate(results, figure->line, element).value);
+            put_point(csv, figure, figure->curve[c].first + i * figure->stride);
         }
         text_put(csv, "\n");
     }

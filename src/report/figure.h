@@ -8,6 +8,16 @@
 
 #include <stdbool.h>
 
+// What theory says of one end of the x axis: another series of the stage and of this shape, drawn
+// over that half of it, in the colour of its curve.
+typedef struct FigureLimit {
+    const char *observable;
+    const char *title;  // of this and the next ones, up to the next that has one
+    bool right, dotted; // else left, dashed
+} FigureLimit;
+
+enum { FIGURE_LIMITS = 4 };
+
 // How an observable is drawn. Whatever has no row in figures.def is drawn by the plain rule.
 typedef struct FigureKind {
     const char *observable;
@@ -17,6 +27,7 @@ typedef struct FigureKind {
     const char *title;
     const char *x, *y; // symbols
     bool log_x, log_y;
+    double y_least;      // where a logarithmic y axis of a decade or two begins; 0: of any length
     const char *key;     // where gnuplot puts the legend
     const char *only;    // of the labels of an axis that has it, the one to draw
     const char *line;    // another series of the stage, of this shape: drawn as lines
@@ -28,6 +39,7 @@ typedef struct FigureKind {
     bool signed_colour; // it may be negative: white is zero
     const char *level;  // a scalar of the stage, drawn as a horizontal line
     const char *level_title;
+    FigureLimit limit[FIGURE_LIMITS];
     const char *about;      // what is to be seen, a sentence for the caption
     const char *about_line; // and about the line, where there is one
 } FigureKind;
@@ -48,10 +60,11 @@ typedef struct Curve {
 typedef struct Figure {
     const Results *results;
     const ResultSeries *series;
-    const ResultSeries *line;  // NULL without
-    const ResultScalar *level; // NULL without
-    const FigureKind *kind;    // NULL for the plain rule
-    char name[FIGURE_NAME];    // of the files, without ending
+    const ResultSeries *line;                 // NULL without
+    const ResultScalar *level;                // NULL without
+    const ResultSeries *limit[FIGURE_LIMITS]; // as in its kind; NULL without
+    const FigureKind *kind;                   // NULL for the plain rule
+    char name[FIGURE_NAME];                   // of the files, without ending
     const ResultAxis *x;
     size_t stride;       // elements from one point to the next along x
     const ResultAxis *y; // of a picture whose colour is the value; NULL for curves
@@ -61,6 +74,7 @@ typedef struct Figure {
     Curve curve[FIGURE_CURVES];
 } Figure;
 
+size_t figure_columns(const Figure *figure); // of the numbers of a curve
 bool figure_is_theory(const Figure *figure); // not of a simulation: has neither replicas nor errors
 bool figure_is_dense(const Figure *figure);  // too many points for a mark on each
 

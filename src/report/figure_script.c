@@ -6,6 +6,7 @@
 #include "report/notation.h"
 #include "report/palette.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -13,9 +14,10 @@ static const int MARKS[PALETTE_SIZE] = {7, 5, 9, 11, 13, 6, 4, 8}; // gnuplot's 
 
 #define REFERENCE "dashtype (6,4) linewidth 1.6 linecolor rgb '#333333'"
 
-// Columns of the numbers: x, then for each curve its value, its error and, if any, its line.
+// Columns of the numbers: x, then for each curve its value, its error and, if any, its line and its
+// limits.
 static size_t value_column(const Figure *figure, size_t curve) {
-    return 2 + curve * (figure->line ? 3 : 2);
+    return 2 + curve * figure_columns(figure);
 }
 
 static void put_label(Text *script, const char *axis, const char *symbol, const char *unit) {
@@ -84,14 +86,17 @@ typedef struct Legend {
 
 static Legend legend_of(const Figure *figure) {
     enum { KEY_MOST = 4, WIDTH = 700, LETTER = 9, SAMPLE = 70, ROW = 20 };
-    size_t longest = 1;
+    size_t longest = 1, names = figure->curve_count;
     for (size_t c = 0; c < figure->curve_count; c++) {
         const size_t letters = strlen(figure->curve[c].title);
         if (letters > longest) longest = letters;
     }
+    for (size_t k = 0; k < FIGURE_LIMITS; k++) {
+        names += figure->limit[k] && figure->kind->limit[k].title;
+    }
     const size_t fit = WIDTH / (longest * LETTER + SAMPLE), columns = fit > 1 ? fit : 1;
-    const size_t rows = (figure->curve_count + columns) / columns; // and one for what lies beside
-    const bool below = figure->curve_count > KEY_MOST && !has_ratio(figure);
+    const size_t rows = (names + columns) / columns; // and one for what lies beside
+    const bool below = names > KEY_MOST && !has_ratio(figure);
     return (Legend){below, columns, below ? rows * ROW : 0};
 }
 
@@ -134,20 +139,32 @@ static bool is_log_x(const Figure *figure) {
     return x[0] > 0 && x[last] - x[last - 1] > SPREADS * (x[1] - x[0]);
 }
 
+static void put_y_scale(Text *script, const Figure *figure) {
+    const FigureKind *kind = figure->kind;
+    if (!kind || !kind->log_y)
+        text_put(script, "set format y '%g'\n");
+    else if (kind->y_least > 0)
+        text_add(
+            script,
+            "set logscale y\nset format y '%%g'\nset yrange [%g:*]\n"
+            "set autoscale yfixmax\nset offsets 0, 0, graph 0.08, 0\n"
+            "set ytics (0.5, 0.7, 1, 1.5, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100, 200, 500)\n",
+            kind->y_least);
+    else
+        text_put(script, "set logscale y\nset format y '10^{%T}'\n");
+}
+
 static void put_axes(Text *script, const Figure *figure) {
     if (is_log_x(figure)) {
         text_put(script, "set logscale x\nset format x '10^{%T}'\n");
     }
-    if (figure->kind && figure->kind->log_y)
-        text_put(script, "set logscale y\nset format y '10^{%T}'\n");
-    else
-        text_put(script, "set format y '%g'\n");
+    put_y_scale(script, figure);
     put_x_label(script, figure);
     put_y_label(script, figure);
 }
 
-// The lower edge of a band. On a logarithmic axis a tenth of the value is low enough: one as large
-// as its error would otherwise take the axis down with it.
+// The lower edge of a band, the lower end of a bar. On a logarithmic axis a tenth of the value is
+// low enough: one as large as its error would otherwise take the axis down with it.
 static void put_lower(Text *script, const Figure *figure, const char *value, const char *error) {
     if (figure->kind && figure->kind->log_y)
         text_add(script, "((%s) < 0.9*(%s) ? (%s) - (%s) : 0.1*(%s))", error, value, value, error,
@@ -171,9 +188,11 @@ static void put_curve(Text *script, const Figure *figure, size_t curve, const ch
     }
     const bool marks = !dense && !is_sum(figure, curve);
     text_add(script, "  data using 1:(%s)", value);
-    if (has_errors && marks)
-        text_add(script, ":(%s) with yerrorlines", error);
-    else
+    if (has_errors && marks) {
+        text_put(script, ":");
+        put_lower(script, figure, value, error);
+        text_add(script, ":(%s + (%s)) with yerrorlines", value, error);
+    } else
         text_add(script, " with %s", marks ? "linespoints" : "lines");
     text_add(script, " linetype %zu title ", look);
     gnuplot_quoted(script, title);
@@ -216,6 +235,30 @@ static void put_reference_title(Text *script, const char *title, bool first) {
     if (first) gnuplot_quoted(script, title);
 }
 
+// Each over its half of the x axis, in the colour of its curve; what they are is said in grey.
+static void put_limits(Text *script, const Figure *figure) {
+    const double *x = figure->x->values, last = x[figure->x->count - 1];
+    const double middle = is_log_x(figure) ? sqrt(x[0] * last) : (x[0] + last) / 2;
+    size_t column = figure->line ? 3 : 2;
+    for (size_t k = 0; k < FIGURE_LIMITS; k++) {
+        if (!figure->limit[k]) continue;
+        const FigureLimit *limit = &figure->kind->limit[k];
+        const char *dash = limit->dotted ? "(2,4)" : "(9,5)";
+        for (size_t c = 0; c < figure->curve_count; c++) {
+            text_add(script,
+                     ", \\\n  data using ($1 %s %.10g ? $1 : NaN):%zu with lines "
+                     "linetype %zu dashtype %s notitle",
+                     limit->right ? ">=" : "<=", middle, value_column(figure, c) + column,
+                     look_of(figure, c), dash);
+        }
+        column++;
+        if (!limit->title) continue;
+        text_add(script, ", \\\n  keyentry with lines linecolor rgb '#333333' dashtype %s title ",
+                 dash);
+        gnuplot_quoted(script, limit->title);
+    }
+}
+
 // What the curves are compared with: other numbers, a function, or a level.
 static void put_references(Text *script, const Figure *figure) {
     const FigureKind *kind = figure->kind;
@@ -233,6 +276,7 @@ static void put_references(Text *script, const Figure *figure) {
         text_add(script, ", \\\n  %.10g with lines " REFERENCE, level.value);
         put_reference_title(script, kind->level_title, true);
     }
+    put_limits(script, figure);
     text_put(script, "\n");
 }
 

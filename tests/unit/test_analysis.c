@@ -371,6 +371,48 @@ START_TEST(only_hard_discs_and_spheres_have_an_equation_of_state) {
 }
 END_TEST
 
+static Results *passage_of_a_tracer(void) {
+    Results *results = NULL;
+    static const double begin[] = {0, 0.2}, values[] = {1, 1, 1, 1};
+    static const char *const quantities[] = {"distance", "time"};
+    const ResultSeries shape = {
+        .stage = "pulled",
+        .observable = "tracer_passage",
+        .axes = 2,
+        .axis = {{.name = "quantity", .unit = "", .count = 2, .labels = quantities},
+                 {.name = "begin", .unit = "", .count = 2, .values = begin}}};
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(results_put_series(results, &shape, 0, values), OK);
+    return results;
+}
+
+static double limit(const System *system, const char *quantity) {
+    Results *results = passage_of_a_tracer();
+    ck_assert_int_eq(analysis_derive(results, system), OK);
+    const ResultScalar *found = results_find_scalar(results, "pulled", quantity);
+    const double value = found ? found->values[0] : (double)NAN;
+    results_free(results);
+    return value;
+}
+
+// At 0.1 the pair distribution of Carnahan and Starling at contact is 0.95/0.729.
+START_TEST(friction_among_equal_spheres_has_limits) {
+    System system = system_of(3, 100, 0.1, 1);
+    ck_assert_double_eq_tol(limit(&system, "friction_weak"), 1.2, 1e-12);
+    ck_assert_double_eq_tol(limit(&system, "friction_strong"), 1.1, 1e-12);
+    ck_assert_double_eq_tol(limit(&system, "friction_weak_contact"), 1 + 0.19 / 0.729, 1e-12);
+    ck_assert_double_eq_tol(limit(&system, "friction_strong_contact"), 1 + 0.095 / 0.729, 1e-12);
+    const System rods = oriented_system(100, 2), discs = system_of(2, 100, 0.1, 1);
+    ck_assert(isnan(limit(&rods, "friction_weak")));
+    ck_assert(isnan(limit(&discs, "friction_weak")));
+    system.species[0].shape = SHAPE_SOFT_SPHERE;
+    system.species[0].exponent = 36; // as hard spheres of 1.016817 d: 0.1051304
+    ck_assert_double_eq_tol(limit(&system, "friction_weak"), 1.2, 1e-12);
+    ck_assert_double_eq_tol(limit(&system, "friction_strong_contact"),
+                            1 + 0.1051304 * 0.9474348 / 0.7165986, 1e-5);
+}
+END_TEST
+
 // Pressures that rise by 0.5 in the stage, in eleven blocks of which the middle one is in no half.
 START_TEST(a_stage_that_drifts_is_told) {
     double times[11], values[11];
@@ -478,6 +520,7 @@ int main(void) {
     tcase_add_test(c, every_direction_has_its_long_time_diffusion);
     tcase_add_test(c, free_platelets_move_as_their_tensor_says);
     tcase_add_test(c, only_hard_discs_and_spheres_have_an_equation_of_state);
+    tcase_add_test(c, friction_among_equal_spheres_has_limits);
     tcase_add_test(c, a_stage_that_drifts_is_told);
     tcase_add_test(c, deriving_twice_changes_nothing);
     tcase_add_test(c, a_structure_factor_changes_since_the_first_stage_that_has_it);

@@ -414,6 +414,32 @@ START_TEST(an_observable_without_a_row_is_drawn_by_the_plain_rule) {
 }
 END_TEST
 
+// Friction at three forces, and what theory says of weak ones, over their half of the axis.
+START_TEST(a_limit_is_drawn_over_its_half_of_the_axis) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    const double peclet[] = {1, 10, 100}, friction[] = {2, 1.5, 1.2}, weak[] = {1.4, 1.4, 1.4};
+    ResultSeries shape = {.stage = "pulled",
+                          .observable = "effective_friction",
+                          .axes = 1,
+                          .axis = {{.name = "peclet", .unit = "", .count = 3, .values = peclet}}};
+    results_put_series(results, &shape, 0, friction);
+    snprintf(shape.observable, sizeof shape.observable, "friction_weak");
+    results_put_series(results, &shape, 0, weak);
+    const Figure figure = figure_of(results, &results->series[0]);
+    ck_assert(!figure_exists(results, &results->series[1]));
+    Text csv = {0}, script = {0};
+    figure_numbers(&csv, &figure);
+    ck_assert_str_eq(text_words(&csv), "peclet,\"value\",\"value error\",\"value friction_weak\"\n"
+                                       "1,2,,1.4\n10,1.5,,1.4\n100,1.2,,1.4\n");
+    figure_script(&script, &figure);
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "data using ($1 <= 10 ? $1 : NaN):4 with"));
+    text_free(&script);
+    text_free(&csv);
+    results_free(results);
+}
+END_TEST
+
 START_TEST(a_series_over_a_plane_is_drawn_as_a_picture) {
     Results *results = NULL;
     ck_assert_int_eq(results_create(&results, 1), OK);
@@ -478,6 +504,7 @@ int main(void) {
     tcase_add_test(tests, a_broken_limit_is_the_first_thing_a_reader_sees);
     tcase_add_test(tests, where_nothing_can_be_written_the_sentence_names_the_path);
     tcase_add_test(tests, an_observable_without_a_row_is_drawn_by_the_plain_rule);
+    tcase_add_test(tests, a_limit_is_drawn_over_its_half_of_the_axis);
     tcase_add_test(tests, a_series_over_a_plane_is_drawn_as_a_picture);
     tcase_add_test(tests, gnuplot_takes_quoted_words_literally);
     tcase_set_timeout(tests, 60); // gnuplot on a busy machine
