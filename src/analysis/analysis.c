@@ -47,6 +47,8 @@ static const struct {
     {"contact_distribution", .with = theory_beside},
     {"virtual_compression", .with = derive_compression},
     {"virtual_compression", .with = theory_beside},
+    {"structure_factor_stretches", .alone = derive_structure_peak},
+    {"structure_peak", .alone = derive_drift},
     {"energy", .alone = derive_drift},
     {"bond_order", .alone = derive_drift},
     {"pressure", .alone = derive_drift},

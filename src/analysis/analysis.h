@@ -19,7 +19,9 @@
 //   contact_value_A_B, compressibility_factor_contact             of contact_distribution
 //   compressibility_factor_compression, pressure_compression      of virtual_compression
 //   compressibility_factor_theory, pressure_theory                hard discs and spheres only
-//   pressure_drift, energy_drift, bond_order_local_drift, _global_drift   of these in blocks
+//   structure_peak, a series, and structure_peak_wave_number      of structure_factor_stretches
+//   structure_peak_drift, pressure_drift, energy_drift, bond_order_local_drift, _global_drift
+//                                                                 of these in blocks
 //   collective_scattering_normalised, a series   of collective_scattering and its _ends
 //   OBSERVABLE_relaxation_time and OBSERVABLE_kohlrausch_amplitude, _time, _exponent, _window and
 //   _scan, series                        of self_scattering and collective_scattering_normalised
@@ -44,8 +46,9 @@ Status analysis_derive(Results *results, const System *system);
 // scattering functions for them. After analysis_derive.
 Status analysis_centre(Results *results, const Plan *plan);
 
-// Whether the stages at rest were in equilibrium: relaxation_share and structure_peak, scalars, and
-// a fact "equilibrium of STAGE" in words. After both.
+// Whether the stages at rest were in equilibrium: the scalar relaxation_share, a fact "equilibrium
+// of STAGE" in words and, among the health, bond_order_of_STAGE and structure_peak_rise_of_STAGE.
+// After both.
 Status analysis_judge(Results *results, const Plan *plan);
 
 // Of the quantities of many states over an axis of packing fractions (campaign/combine.h), for each

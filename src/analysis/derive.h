@@ -24,6 +24,7 @@ Status derive_compression(Results *results, const ResultSeries *compression, con
 Status derive_theory(Results *results, const char *stage, const System *system);
 // Likewise.
 Status derive_drift(Results *results, const ResultSeries *blocks);
+Status derive_structure_peak(Results *results, const ResultSeries *stretches);
 Status derive_structure_change(Results *results, const ResultSeries *structure);
 Status derive_factorisation(Results *results, const ResultSeries *scattering);
 // The free diffusion of the centre of mass in D0, and functions without it.

@@ -111,12 +111,11 @@ static void judge_drifts(Judged *judged) {
              most > ERRORS_MOST ? "differ" : "agree", worst->quantity, most);
 }
 
-// Mean over the times.
-static double mean_order(const Results *results, const ResultSeries *order) {
-    const size_t times = order->axis[order->axes - 1].count, global = order->size - times;
+// Of an element of a series that stands first of its times, which are the last axis.
+static double mean_over_times(const Results *results, const ResultSeries *series, size_t first) {
     double sum = 0, n = 0;
-    for (size_t k = 0; k < times; k++) {
-        const double value = results_series_estimate(results, order, global + k).value;
+    for (size_t k = 0; k < series->axis[series->axes - 1].count; k++) {
+        const double value = results_series_estimate(results, series, first + k).value;
         if (!isfinite(value)) continue;
         sum += value;
         n++;
@@ -124,44 +123,55 @@ static double mean_order(const Results *results, const ResultSeries *order) {
     return sum / n;
 }
 
-static void judge_order(Judged *judged) {
+// A number to know, not to judge: some want a crystal.
+static Status put_health(const Judged *judged, const char *what, const char *about, double value) {
+    char name[RESULT_NAME];
+    snprintf(name, sizeof name, "%s_of_%.30s", what, judged->stage);
+    return results_put_health(judged->results, name, about, NAN, value);
+}
+
+static Status judge_order(Judged *judged) {
     const ResultSeries *order = results_find_series(judged->results, judged->stage, "bond_order");
-    if (!order) return;
-    const double global = mean_order(judged->results, order); // the last of its rows
-    if (!isfinite(global)) return;
+    if (!order) return OK;
+    const size_t global_row = order->size - order->axis[order->axes - 1].count; // the last
+    const double global = mean_over_times(judged->results, order, global_row);
+    if (!isfinite(global)) return OK;
     say_next(judged);
     text_add(&judged->sentence, "bond order of all together is %.2g of 1: %s", global,
              global > ORDER_MOST ? "it crystallises" : "no crystal");
+    return put_health(judged, "bond_order",
+                      "Bond-orientational order of all particles together: of order 1/sqrt(N) in a "
+                      "fluid or glass, of order 1 in a crystal.",
+                      global);
 }
 
-// Of the last of the pairs, which is the total.
+// Its mean over times and replicas, at what wave number, and how far it has risen.
 static Status judge_structure(Judged *judged) {
     Results *results = judged->results;
-    const ResultSeries *s = results_find_series(results, judged->stage, "structure_factor");
-    if (!s || s->axes < 1 || !s->axis[s->axes - 1].values) return OK;
-    const ResultAxis wave = s->axis[s->axes - 1];
-    const size_t total = s->size - wave.count, size = s->size;
-    size_t peak = 0;
-    for (size_t q = 1; q < wave.count; q++) {
-        const double here = results_series_estimate(results, s, total + q).value;
-        if (here > results_series_estimate(results, s, total + peak).value) peak = q;
-    }
+    const ResultSeries *peak = results_find_series(results, judged->stage, "structure_peak");
+    const ResultScalar *wave =
+        results_find_scalar(results, judged->stage, "structure_peak_wave_number");
+    if (!peak || !wave) return OK;
+    const double height = mean_over_times(results, peak, 0);
     say_next(judged);
-    text_add(&judged->sentence, "S(q) peaks at %.3g, q = %.3g d^-1",
-             results_series_estimate(results, s, total + peak).value, wave.values[peak]);
-    for (size_t r = 0; r < results->replicas; r++) {
-        TRY(results_put_scalar(results, judged->stage, "structure_peak", "",
-                               "Height of the peak of the total S(q): it rises if particles order.",
-                               r, s->values[r * size + total + peak]));
-    }
-    return OK;
+    text_add(&judged->sentence, "S(q) peaks at %.3g, q = %.3g d^-1", height,
+             results_scalar_estimate(results, wave).value);
+    const ResultScalar *drift = results_find_scalar(results, judged->stage, "structure_peak_drift");
+    if (!drift) return OK;
+    const double rise = results_scalar_estimate(results, drift).value / height;
+    text_add(&judged->sentence, ", and %s by %.2g %%", rise < 0 ? "falls" : "rises",
+             100 * fabs(rise));
+    return put_health(judged, "structure_peak_rise",
+                      "Peak of the total S(q), second half of the stage less first, over its "
+                      "height: well above 0, particles order.",
+                      rise);
 }
 
 static Status judge(Judged *judged) {
     char name[RESULT_NAME];
     TRY(judge_relaxation(judged));
     judge_drifts(judged);
-    judge_order(judged);
+    TRY(judge_order(judged));
     TRY(judge_structure(judged));
     if (!judged->told) return OK;
     TRY(text_status(&judged->sentence));

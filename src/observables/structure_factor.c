@@ -2,7 +2,8 @@
 // Static structure factors S_ab(q) = <rho_a*(q) rho_b(q)>/N (Weysser, thesis, ch. 3), so that the
 // total is their sum over all ordered pairs of species and S_ab -> x_a delta_ab for large q.
 // Averaged over the vectors of the reciprocal lattice in shells of |q|; where a shell has more of
-// them than wanted, an even choice over all directions.
+// them than wanted, an even choice over all directions. The total is given in stretches of the
+// stage as well: its peak rises where particles order.
 #include "base/memory.h"
 #include "observables/labels.h"
 #include "observables/looks.h"
@@ -10,6 +11,8 @@
 #include "observables/wave_vectors.h"
 
 #include <math.h>
+
+enum { STRETCHES = 10 };
 
 typedef struct StructureSettings {
     double last, spacing;
@@ -55,12 +58,18 @@ typedef struct StructureFactor {
     Observer observer;
     int64_t period;
     size_t species_count;
-    uint64_t looks;
     WaveVectors vectors;
     WaveModes modes;
     double *now;      // the modes
-    double *products; // [pair][shells], sums of Re rho_a* rho_b over vectors and looks
+    size_t stretches; // of the stage, as many as there are looks, and STRETCHES at most
+    double *products; // [stretch][pair][shells], sums of Re rho_a* rho_b over vectors and looks
+    int64_t seen[STRETCHES]; // looks of each
 } StructureFactor;
+
+// Sums of a stretch.
+static size_t width_of(const StructureFactor *self) {
+    return pair_count(self->species_count) * self->vectors.shells;
+}
 
 static size_t shell_count(const StructureSettings *settings) {
     return (size_t)ceil(settings->last / settings->spacing - 1e-9);
@@ -97,7 +106,7 @@ static Status allocate(StructureFactor *self, const StructureSettings *settings,
     TRY(status);
     TRY(wave_modes_make(&self->modes, &self->vectors, state));
     TRY(NEW_ARRAY(self->now, self->modes.width));
-    return NEW_ARRAY(self->products, pair_count(self->species_count) * self->vectors.shells);
+    return NEW_ARRAY(self->products, STRETCHES * width_of(self));
 }
 
 static Status create(Observer **out, const Settings *settings, const State *state,
@@ -107,6 +116,8 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     TRY(NEW(self));
     self->observer = (Observer){.kind = &observable_structure_factor, .clock = *clock};
     self->period = looks_period(clock, chosen->looks);
+    const int64_t looks = looks_count(clock, self->period);
+    self->stretches = looks < STRETCHES ? (size_t)looks : STRETCHES;
     self->species_count = state->system.species_count;
     const Status status = allocate(self, chosen, state);
     if (status != OK) {
@@ -135,73 +146,119 @@ static int64_t next(const Observer *observer, int64_t after) {
 }
 
 static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
-    (void)tick;
     (void)tally;
     StructureFactor *self = (StructureFactor *)observer;
+    const int64_t looks = looks_count(&self->observer.clock, self->period);
+    const int64_t stretch = (tick / self->period - 1) * (int64_t)self->stretches / looks;
     wave_modes_find(&self->modes, state, self->now);
-    wave_modes_add_products(&self->modes, &self->vectors, self->now, self->now, self->products);
-    self->looks++;
+    wave_modes_add_products(&self->modes, &self->vectors, self->now, self->now,
+                            self->products + (size_t)stretch * width_of(self));
+    self->seen[stretch]++;
     return OK;
 }
 
-static const uint64_t STRUCTURE_TAG = 0x5354525543303031; // "STRUC001"
+static const uint64_t STRUCTURE_TAG = 0x5354525543303032; // "STRUC002"
 
 static void archive(Observer *observer, Archive *archive) {
     StructureFactor *self = (StructureFactor *)observer;
     archive_tag(archive, STRUCTURE_TAG);
-    archive_u64(archive, &self->looks, 1);
-    archive_f64(archive, self->products, pair_count(self->species_count) * self->vectors.shells);
+    archive_i64(archive, self->seen, STRETCHES);
+    archive_f64(archive, self->products, STRETCHES * width_of(self));
 }
 
-// Keeps the shells that have vectors; gives their number.
-static size_t fill(const StructureFactor *self, size_t particles, size_t labels, double *values,
-                   double *wave_numbers) {
-    size_t filled = 0;
-    for (size_t k = 0; k < self->vectors.shells; k++) filled += self->vectors.members[k] > 0;
+// Mean over the looks of the stretches [from, to) and the vectors of a shell; NaN without looks.
+static double mean_product(const StructureFactor *self, size_t from, size_t to, size_t pair,
+                           size_t shell) {
+    double sum = 0, looks = 0;
+    for (size_t k = from; k < to; k++) {
+        sum += self->products[k * width_of(self) + pair * self->vectors.shells + shell];
+        looks += (double)self->seen[k];
+    }
+    return sum / (looks * self->vectors.members[shell]);
+}
+
+// value[pair * stride] of one shell, the last pair their total, S_ab and S_ba each counted.
+static void fill_pairs(const StructureFactor *self, size_t from, size_t to, size_t shell,
+                       size_t particles, size_t stride, double *value) {
+    double total = 0;
+    size_t pair = 0;
+    for (size_t a = 0; a < self->species_count; a++) {
+        for (size_t b = a; b < self->species_count; b++, pair++) {
+            const double partial = mean_product(self, from, to, pair, shell) / (double)particles;
+            value[pair * stride] = partial;
+            total += a == b ? partial : 2 * partial;
+        }
+    }
+    value[pair * stride] = total;
+}
+
+// Keeps the shells that have vectors, `filled` of them: values[pair][shell] of the whole stage,
+// totals[shell][stretch].
+typedef struct Filled {
+    size_t filled;
+    double *wave_numbers, *values, *totals;
+} Filled;
+
+static void fill(const StructureFactor *self, size_t particles, Filled *out) {
+    double pairs[PAIRS_MOST + 1];
     size_t at = 0;
     for (size_t k = 0; k < self->vectors.shells; k++) {
         if (!(self->vectors.members[k] > 0)) continue;
-        const double samples = self->vectors.members[k] * (double)self->looks * (double)particles;
-        double total = 0;
-        size_t pair = 0;
-        for (size_t a = 0; a < self->species_count; a++) {
-            for (size_t b = a; b < self->species_count; b++, pair++) {
-                const double partial = self->products[pair * self->vectors.shells + k] / samples;
-                values[pair * filled + at] = partial;
-                total += a == b ? partial : 2 * partial; // S_ab and S_ba
-            }
+        fill_pairs(self, 0, self->stretches, k, particles, out->filled, out->values + at);
+        for (size_t t = 0; t < self->stretches; t++) {
+            fill_pairs(self, t, t + 1, k, particles, 1, pairs);
+            out->totals[at * self->stretches + t] = pairs[pair_count(self->species_count)];
         }
-        values[(labels - 1) * filled + at] = total;
-        wave_numbers[at++] = self->vectors.wave_number[k];
+        out->wave_numbers[at++] = self->vectors.wave_number[k];
     }
-    return filled;
 }
 
-static Status put(const StructureFactor *self, const State *state, const Labels *pairs,
-                  double *values, double *wave_numbers, Results *results, size_t replica) {
-    const size_t filled = fill(self, state->count, pairs->count, values, wave_numbers);
-    const ResultSeries shape = {
-        .unit = "",
+static Status put(const StructureFactor *self, const State *state, const Filled *filled,
+                  Results *results, size_t replica) {
+    Labels pairs;
+    labels_of_pairs(&pairs, &state->system, "total");
+    const Clock *clock = &self->observer.clock;
+    const double looks = (double)looks_count(clock, self->period);
+    double times[STRETCHES];
+    for (size_t t = 0; t < self->stretches; t++)
+        times[t] = ceil((double)(t + 1) * looks / (double)self->stretches) * (double)self->period *
+                   clock->tick;
+    const ResultAxis wave = {.name = "wave_number",
+                             .unit = "1/d",
+                             .count = filled->filled,
+                             .values = filled->wave_numbers};
+    const ResultSeries whole = {
         .about = "Partial structure factors S_ab(q) = <rho_a* rho_b>/N; total: their sum over all "
                  "ordered pairs.",
         .axes = 2,
-        .axis = {{.name = "pair", .unit = "", .count = pairs->count, .labels = pairs->names},
-                 {.name = "wave_number", .unit = "1/d", .count = filled, .values = wave_numbers}}};
-    return observer_put_series(&self->observer, "structure_factor", &shape, results, replica,
-                               values);
+        .axis = {{.name = "pair", .unit = "", .count = pairs.count, .labels = pairs.names}, wave}};
+    const ResultSeries stretches = {
+        .about = "Total structure factor in stretches of the stage, at their ends.",
+        .axes = 2,
+        .axis = {wave,
+                 {.name = "time", .unit = clock->unit, .count = self->stretches, .values = times}}};
+    TRY(observer_put_series(&self->observer, "structure_factor", &whole, results, replica,
+                            filled->values));
+    return observer_put_series(&self->observer, "structure_factor_stretches", &stretches, results,
+                               replica, filled->totals);
 }
 
 static Status write(const Observer *observer, const State *state, Results *results,
                     size_t replica) {
     const StructureFactor *self = (const StructureFactor *)observer;
-    Labels pairs;
-    labels_of_pairs(&pairs, &state->system, "total");
-    double *values = NULL, *wave_numbers = NULL;
-    Status status = NEW_ARRAY(values, pairs.count * self->vectors.shells);
-    if (status == OK) status = NEW_ARRAY(wave_numbers, self->vectors.shells);
-    if (status == OK) status = put(self, state, &pairs, values, wave_numbers, results, replica);
-    memory_free(values);
-    memory_free(wave_numbers);
+    Filled out = {0};
+    for (size_t k = 0; k < self->vectors.shells; k++) out.filled += self->vectors.members[k] > 0;
+    const size_t labels = pair_count(self->species_count) + 1;
+    Status status = NEW_ARRAY(out.values, labels * out.filled);
+    if (status == OK) status = NEW_ARRAY(out.wave_numbers, out.filled);
+    if (status == OK) status = NEW_ARRAY(out.totals, out.filled * self->stretches);
+    if (status == OK) {
+        fill(self, state->count, &out);
+        status = put(self, state, &out, results, replica);
+    }
+    memory_free(out.values);
+    memory_free(out.wave_numbers);
+    memory_free(out.totals);
     return status;
 }
 
@@ -213,7 +270,8 @@ static size_t memory(const Settings *settings_, const System *system, const Cloc
     const double vectors = wave_vectors_most(&box, settings->last, shells, settings->vectors);
     return sizeof(StructureFactor) +
            wave_vectors_memory(&box, settings->last, shells, settings->vectors) +
-           (2 * species * (size_t)vectors + pair_count(species) * shells) * sizeof(double);
+           (2 * species * (size_t)vectors + STRETCHES * pair_count(species) * shells) *
+               sizeof(double);
 }
 
 const ObservableKind observable_structure_factor = {

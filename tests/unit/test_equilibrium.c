@@ -96,6 +96,46 @@ START_TEST(crystals_are_seen) {
 }
 END_TEST
 
+// S(q) with a peak at its second wave number, of height 3, `rise` higher in the second half.
+static void put_peak(Results *results, double rise) {
+    static const double waves[3] = {4, 6, 8}, heights[3] = {1, 3, 2};
+    double times[BLOCKS], values[3][BLOCKS];
+    for (int k = 0; k < BLOCKS; k++) times[k] = 10 * (k + 1);
+    const ResultSeries shape = {
+        .stage = "quiescent",
+        .observable = "structure_factor_stretches",
+        .axes = 2,
+        .axis = {{.name = "wave_number", .unit = "1/d", .count = 3, .values = waves},
+                 {.name = "time", .unit = "d sqrt(m/kT)", .count = BLOCKS, .values = times}}};
+    for (size_t r = 0; r < REPLICAS; r++) {
+        for (int q = 0; q < 3; q++) {
+            for (int k = 0; k < BLOCKS; k++)
+                values[q][k] = heights[q] + 0.01 * ((double)r - 1.5) * (k % 2 - 0.5) +
+                               (q == 1 && k >= BLOCKS / 2 ? rise : 0);
+        }
+        ck_assert_int_eq(results_put_series(results, &shape, r, &values[0][0]), OK);
+    }
+}
+
+START_TEST(the_peak_of_the_structure_factor_is_watched) {
+    Results *results = NULL;
+    Plan *plan = plan_new();
+    ck_assert_int_eq(results_create(&results, REPLICAS), OK);
+    put_peak(results, 0.3);
+    ck_assert_int_eq(analysis_derive(results, &plan->system), OK);
+    ck_assert_int_eq(analysis_judge(results, plan), OK);
+    const char *said = results_find_fact(results, "equilibrium of quiescent");
+    ck_assert_ptr_nonnull(said);
+    ck_assert_msg(strstr(said, "peaks at 3.15, q = 6 d^-1, and rises by 9.5 %"), "'%s'", said);
+    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "structure_peak_drift"), 0.3, 1e-12);
+    ck_assert_uint_eq(results->health_count, 1);
+    ck_assert_str_eq(results->health[0].name, "structure_peak_rise_of_quiescent");
+    ck_assert_double_eq_tol(results->health[0].value, 0.3 / 3.15, 1e-12);
+    results_free(results);
+    memory_free(plan);
+}
+END_TEST
+
 // A glass of 100 discs whose centre of mass alone moves: D0/100.
 START_TEST(a_drifting_glass_stands_still_about_its_centre) {
     static const char BROWNIAN[] = "system:\n"
@@ -149,6 +189,7 @@ int main(void) {
     tcase_add_test(c, relaxations_are_counted);
     tcase_add_test(c, halves_are_compared);
     tcase_add_test(c, crystals_are_seen);
+    tcase_add_test(c, the_peak_of_the_structure_factor_is_watched);
     tcase_add_test(c, a_drifting_glass_stands_still_about_its_centre);
     tcase_add_test(c, without_measurements_nothing_is_said);
     suite_add_tcase(suite, c);

@@ -416,6 +416,14 @@ START_TEST(ideal_gas_scatters_as_its_particles) {
         const double parts = s->values[k] + 2 * s->values[shells + k] + s->values[2 * shells + k];
         ck_assert_double_eq_tol(s->values[3 * shells + k], parts, 1e-12);
     }
+    const ResultSeries *in_time = series_of(results, "quiescent", "structure_factor_stretches");
+    const size_t stretches = in_time->axis[1].count; // of as many looks each
+    ck_assert_uint_eq(stretches, 10);
+    for (size_t k = 0; k < shells; k++) {
+        double total = 0;
+        for (size_t t = 0; t < stretches; t++) total += in_time->values[k * stretches + t];
+        ck_assert_double_eq_tol(total / (double)stretches, s->values[3 * shells + k], 1e-12);
+    }
     // |rho|^2/N is exponential: a shell of n vectors and 200 looks has the error 1/sqrt(200 n).
     const double error = 1 / sqrt(200.0 * 20 * (double)shells); // n >= 20 in all but a few
     ck_assert_double_eq_tol(sum[0] / (double)shells, 0.5, SIGMAS * 0.5 * error);
