@@ -120,6 +120,18 @@ static void print_seconds(double seconds) {
         printf("%.3g h", seconds / 3600);
 }
 
+// The error of a standard error of n values is 1/sqrt(2 (n - 1)) of it.
+static void print_ensemble(const EnsemblePlan *ensemble) {
+    static const long long REPLICAS_FEW = 4;
+    const long long replicas = (long long)ensemble->replicas;
+    printf("ensemble  %lld replicas, seed %lld\n", replicas, (long long)ensemble->seed);
+    if (replicas == 1)
+        printf("          one replica has no errors: take %lld or more\n", REPLICAS_FEW);
+    else if (replicas < REPLICAS_FEW)
+        printf("          of %lld replicas errors are known to %.0f %% only: take %lld or more\n",
+               replicas, 100 / sqrt(2 * (double)(replicas - 1)), REPLICAS_FEW);
+}
+
 static void print_cost(const Plan *plan) {
     const double replicas = (double)plan->ensemble.replicas;
     const double cores = fmin((double)sysconf(_SC_NPROCESSORS_ONLN), replicas);
@@ -199,8 +211,7 @@ static Status print_plan(const Plan *plan) {
     print_species(&plan->system);
     for (size_t s = 0; s < plan->stage_count; s++) TRY(print_stage(plan, s));
     print_equilibrium(plan);
-    printf("ensemble  %lld replicas, seed %lld\n", (long long)plan->ensemble.replicas,
-           (long long)plan->ensemble.seed);
+    print_ensemble(&plan->ensemble);
     print_cost(plan);
     return OK;
 }

@@ -6,9 +6,12 @@
 #include "state/system.h"
 
 // The jackknife's pseudo-value of a replica (Efron, SIAM monograph 38, 1982), from a number found
-// with all `replicas` and without this one; of a single replica, the number itself.
+// with all `replicas` and without this one; of a single replica, the number itself. Of two, that of
+// the other: what the jackknife takes off as bias would be noise, of the size of the error at
+// least.
 static inline double pseudo_value(size_t replicas, double all, double without) {
-    return replicas < 2 ? all : (double)replicas * all - (double)(replicas - 1) * without;
+    if (replicas < 3) return replicas < 2 ? all : without;
+    return (double)replicas * all - (double)(replicas - 1) * without;
 }
 
 Status derive_diffusion(Results *results, const ResultSeries *displacement);

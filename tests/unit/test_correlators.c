@@ -489,6 +489,32 @@ START_TEST(susceptibility_is_the_unbiased_variance) {
 }
 END_TEST
 
+// One of which has hardly a denominator: 2 f(all) - f(other) would be below 0 where f of each is
+// not.
+START_TEST(of_two_replicas_each_gives_its_own_value) {
+    static const double wave[1] = {6}, above[2] = {0.5, 0.3}, below[2] = {1, 0.1};
+    const System system = system_of(2, WALKERS, 0.2, 1);
+    static const char *const names[2] = {"collective_scattering", "collective_scattering_ends"};
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 2), OK);
+    for (size_t k = 0; k < 2; k++) {
+        ResultSeries shape = {
+            .stage = "quiescent",
+            .axes = 1,
+            .axis = {{.name = "wave_number", .unit = "1/d", .count = 1, .values = wave}}};
+        strcpy(shape.observable, names[k]);
+        for (size_t r = 0; r < 2; r++)
+            ck_assert_int_eq(results_put_series(results, &shape, r, (k ? below : above) + r), OK);
+    }
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    const ResultSeries *ratio = series_of(results, "quiescent", "collective_scattering_normalised");
+    const Estimate mean = results_series_estimate(results, ratio, 0);
+    ck_assert_double_eq_tol(mean.value, (0.5 + 3) / 2, 1e-12);
+    ck_assert_double_eq_tol(mean.error, (3 - 0.5) / 2, 1e-12);
+    results_free(results);
+}
+END_TEST
+
 START_TEST(versines_have_the_same_bits_on_every_path) {
     enum { COUNT = 1000 };
     static _Alignas(64) double x[COUNT];
@@ -553,6 +579,7 @@ int main(void) {
     tcase_add_loop_test(c, overlap_agrees_with_its_slow_twin, 0, 4);
     tcase_add_loop_test(c, van_hove_function_agrees_with_its_slow_twin, 0, 4);
     tcase_add_test(c, susceptibility_is_the_unbiased_variance);
+    tcase_add_test(c, of_two_replicas_each_gives_its_own_value);
     tcase_add_test(c, versines_have_the_same_bits_on_every_path);
     tcase_add_test(c, what_cannot_be_correlated_is_refused_with_a_sentence);
     suite_add_tcase(suite, c);
