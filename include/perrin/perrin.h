@@ -32,7 +32,8 @@ typedef struct perrin_run perrin_run;         /**< a run that goes on in threads
 typedef struct perrin_results perrin_results; /**< numbers of a finished run */
 
 const char *perrin_version(void); /**< "0.1.0" */
-const char *perrin_error(void);   /**< sentence of this thread's last failure */
+const char *perrin_error(void);   /**< sentence of this thread's last failure; of a run
+                                       file with several faults, a line each */
 
 /** Reads a run file. `settings`: NULL, or a NULL-ended list of "KEY=VALUE" that override it. */
 int perrin_plan_read(perrin_plan **out, const char *path, const char *const *settings);

@@ -8,12 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SENTENCE_SIZE = 1024 };
-static _Thread_local char sentence[SENTENCE_SIZE];
+static _Thread_local char sentence[STATUS_SENTENCE_SIZE];
 
 __attribute__((format(printf, 1, 0))) static void keep(const char *format, va_list arguments) {
     // The arguments may point into the sentence itself, when a failure is told with more context.
-    char fresh[SENTENCE_SIZE];
+    char fresh[STATUS_SENTENCE_SIZE];
     vsnprintf(fresh, sizeof fresh, format, arguments);
     memcpy(sentence, fresh, sizeof fresh);
 }

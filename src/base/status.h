@@ -14,6 +14,9 @@ typedef enum Status {
     INTERRUPTED = 75, // stopped by a signal after a checkpoint; can be resumed
 } Status;
 
+// Room for a sentence, or for several, a line each.
+enum { STATUS_SENTENCE_SIZE = 4096 };
+
 // Keeps the sentence for this thread and returns `code`.
 Status status_fail(Status code, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

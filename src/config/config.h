@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Between run files and Plans, both ways; the only place that knows YAML. Whatever is wrong with a
-// run file is told in one sentence with file, line and column.
+// run file is told, a sentence with file, line and column for each fault, a line each.
 #pragma once
 
 #include "protocol/plan.h"

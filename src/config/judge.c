@@ -6,6 +6,7 @@
 #include "base/constants.h"
 #include "base/nearest.h"
 #include "base/number.h"
+#include "config/faults.h"
 #include "config/options.h"
 #include "packing/packing.h"
 
@@ -111,17 +112,22 @@ static Status judge_sizes(const Node *node, const Species *species) {
     return OK;
 }
 
-static Status judge_species(const Node *root, const Node *map, const System *system) {
+static Status judge_one_species(const Node *node, const System *system, const Species *species) {
+    const ShapeKind shape = (ShapeKind)species->shape;
+    if (shape_dimension(shape) != (int)system->dimension)
+        return tree_fail(place(node, "shape", NULL),
+                         "shape = %s lives in %d dimensions, but dimension = %d",
+                         shape_names[shape], shape_dimension(shape), (int)system->dimension);
+    TRY(judge_sizes(node, species));
+    return judge_spread(node, species);
+}
+
+static Status judge_every_species(const Node *map, const System *system) {
+    Faults faults = {0};
     for (size_t s = 0; s < system->species_count; s++) {
-        const ShapeKind shape = (ShapeKind)system->species[s].shape;
-        if (shape_dimension(shape) != (int)system->dimension)
-            return tree_fail(place(nth(map, s), "shape", NULL),
-                             "shape = %s lives in %d dimensions, but dimension = %d",
-                             shape_names[shape], shape_dimension(shape), (int)system->dimension);
-        TRY(judge_sizes(nth(map, s), &system->species[s]));
-        TRY(judge_spread(nth(map, s), &system->species[s]));
+        TRY(faults_keep(&faults, judge_one_species(nth(map, s), system, &system->species[s])));
     }
-    return placed(root, map, system_check_counts(system));
+    return faults_tell(&faults);
 }
 
 // Smallest over largest diameter, as far as the widths of the spreads say.
@@ -181,14 +187,23 @@ static Status judge_density(const Node *root, const Node *map, const System *sys
     return placed(root, given, packing_check(system));
 }
 
-static Status judge_system(const Node *root, const System *system) {
-    const Node *map = tree_find(root, "system");
-    TRY(judge_species(root, tree_find(map, "species"), system));
-    TRY(judge_density(root, map, system));
+static Status judge_aspect(const Node *map, const System *system) {
     if (system->aspect.count == 0 || system->aspect.count == system->dimension) return OK;
     return tree_fail(place(map, "box", "aspect"),
                      "box.aspect has %d numbers; a box in %d dimensions has %d edges",
                      (int)system->aspect.count, (int)system->dimension, (int)system->dimension);
+}
+
+// The density follows from bodies that are right.
+static Status judge_system(const Node *root, const System *system) {
+    const Node *map = tree_find(root, "system"), *species = tree_find(map, "species");
+    Faults faults = {0};
+    TRY(faults_keep(&faults, judge_aspect(map, system)));
+    TRY(faults_keep(&faults, judge_every_species(species, system)));
+    if (faults.count == 0)
+        TRY(faults_keep(&faults, placed(root, species, system_check_counts(system))));
+    if (faults.count == 0) TRY(faults_keep(&faults, judge_density(root, map, system)));
+    return faults_tell(&faults);
 }
 
 static Status judge_stage_name(const Node *protocol, const Plan *plan, size_t stage) {
@@ -232,13 +247,15 @@ static Status judge_stage(const Node *root, const Plan *plan, size_t index) {
     TRY(judge_stage_name(protocol, plan, index));
     TRY(judge_method(root, node, plan, stage));
     const Clock clock = plan_clock(plan, index);
+    Faults faults = {0};
     for (size_t k = 0; k < stage->observation_count; k++) {
         const Observation *observation = &stage->observations[k];
         if (!observation->kind->check) continue;
-        TRY(placed(root, nth(tree_find(node, "observe"), k),
-                   observation->kind->check(&observation->settings, &plan->system, &clock)));
+        TRY(faults_keep(&faults, placed(root, nth(tree_find(node, "observe"), k),
+                                        observation->kind->check(&observation->settings,
+                                                                 &plan->system, &clock))));
     }
-    return OK;
+    return faults_tell(&faults);
 }
 
 static Status judge_output(const Node *root, const Plan *plan) {
@@ -272,9 +289,12 @@ static Status judge_masses(const Node *root, const Plan *plan) {
 
 Status judge_plan(const Node *root, const Plan *plan) {
     TRY(judge_system(root, &plan->system));
-    TRY(judge_masses(root, plan));
-    for (size_t s = 0; s < plan->stage_count; s++) TRY(judge_stage(root, plan, s));
-    TRY(judge_output(root, plan));
+    Faults faults = {0};
+    TRY(faults_keep(&faults, judge_masses(root, plan)));
+    for (size_t s = 0; s < plan->stage_count; s++)
+        TRY(faults_keep(&faults, judge_stage(root, plan, s)));
+    TRY(faults_keep(&faults, judge_output(root, plan)));
+    TRY(faults_tell(&faults));
     return placed(root, root, plan_check(plan));
 }
 

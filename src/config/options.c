@@ -5,6 +5,7 @@
 
 #include "base/nearest.h"
 #include "base/number.h"
+#include "config/faults.h"
 #include "config/sections.h"
 
 #include <inttypes.h>
@@ -341,6 +342,27 @@ void option_write(const Option *row, const void *settings, Text *text) {
     }
 }
 
+bool option_is_default(const Option *row, const void *settings) {
+    union {
+        double real;
+        int64_t whole;
+        uint64_t set;
+        char text[OPTION_TEXT_SIZE];
+        OptionReals reals;
+    } fallback;
+    Option alone = *row;
+    alone.offset = 0;
+    const OptionTable table = {&alone, 1, sizeof fallback};
+    Text value = {0}, other = {0};
+    const Status status = options_default(&table, &fallback);
+    option_write(row, settings, &value);
+    option_write(&alone, &fallback, &other);
+    const bool same = status == OK && strcmp(text_words(&value), text_words(&other)) == 0;
+    text_free(&value);
+    text_free(&other);
+    return same;
+}
+
 // The first name of `row` below `prefix`, if it lies there: "times" of "times.first" below "".
 static bool name_below(const Option *row, const char *prefix, char name[PATH_SIZE]) {
     const size_t length = strlen(prefix);
@@ -455,10 +477,11 @@ static Status read_level(const OptionMap *options, const Node *map, const char *
         return tree_fail(map, "%s is a map of keys and values, such as {%s: ...}",
                          map->key ? map->key : options->name, known.count ? known.names[0] : "key");
     }
+    Faults faults = {0};
     for (const Node *node = map->first; node; node = node->next) {
-        TRY(read_key(options, node, prefix));
+        TRY(faults_keep(&faults, read_key(options, node, prefix)));
     }
-    return OK;
+    return faults_tell(&faults);
 }
 
 static const Node *find_path(const Node *map, const char *path) {
@@ -472,15 +495,22 @@ static const Node *find_path(const Node *map, const char *path) {
     return node;
 }
 
+static Status check_required(const char *name, const OptionTable *table, const Node *map) {
+    Faults faults = {0};
+    for (size_t i = 0; i < table->count; i++) {
+        const Option *row = &table->rows[i];
+        if (!row->required || find_path(map, row->name)) continue;
+        TRY(faults_keep(&faults, tree_fail(map, "%s needs '%s': %s", name, row->name, row->about)));
+    }
+    return faults_tell(&faults);
+}
+
+// A key that is missing may be there under a wrong name: it is asked for when all others are right.
 Status options_read(const OptionMap *options, const Node *map, bool complete) {
     TRY(read_level(options, map, ""));
+    Faults faults = {0};
     for (size_t t = 0; complete && t < options->count; t++) {
-        const OptionTable *table = options->targets[t].table;
-        for (size_t i = 0; i < table->count; i++) {
-            const Option *row = &table->rows[i];
-            if (!row->required || find_path(map, row->name)) continue;
-            return tree_fail(map, "%s needs '%s': %s", options->name, row->name, row->about);
-        }
+        TRY(faults_keep(&faults, check_required(options->name, options->targets[t].table, map)));
     }
-    return OK;
+    return faults_tell(&faults);
 }

@@ -32,6 +32,9 @@ Status option_read(const Option *row, const Node *node, void *settings);
 // The value in run-file notation.
 void option_write(const Option *row, const void *settings, Text *text);
 
+// Whether the value is the one that it has where the key is not given.
+bool option_is_default(const Option *row, const void *settings);
+
 // "a number from 0.01 to 100", "one of disc, sphere".
 void option_describe(const Option *row, Text *text);
 

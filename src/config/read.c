@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/nearest.h"
+#include "config/faults.h"
 #include "config/judge.h"
 #include "config/options.h"
 #include "config/points.h"
@@ -15,6 +16,7 @@
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 enum { NAMES_MOST = 64 };
+static const char SPECIES_ARE[] = "a map from names to particles";
 
 // The nearest of the names of methods or observables, or a list of all, for a sentence.
 static Status fail_unknown_name(const Node *node, const char *what, const char *word,
@@ -74,9 +76,8 @@ static Status read_section(const char *name, const OptionTable *table, void *set
     return options_read(&options, map, complete);
 }
 
-static Status find_required(const Node *map, const char *key, const char *what, const Node **out) {
-    *out = tree_find(map, key);
-    return *out ? OK : tree_fail(map, "there is no '%s': %s", key, what);
+static Status check_there(const Node *map, const char *key, const char *what) {
+    return tree_find(map, key) ? OK : tree_fail(map, "there is no '%s': %s", key, what);
 }
 
 static Status read_one_species(const Node *node, Species *species) {
@@ -119,21 +120,24 @@ static Status read_species(const Node *map, System *system) {
                               "{small: {shape: disc, fraction: 1}}");
     if (map->count > SPECIES_MOST)
         return tree_fail(map, "%zu species; at most %d have room", map->count, SPECIES_MOST);
+    Faults faults = {0};
     for (const Node *node = map->first; node; node = node->next) {
-        TRY(read_one_species(node, &system->species[system->species_count]));
-        system->species_count++;
+        Species *species = &system->species[system->species_count++];
+        TRY(faults_keep(&faults, read_one_species(node, species)));
     }
+    TRY(faults_tell(&faults));
     return fill_fraction(map, system);
 }
 
-static Status read_system(const Node *root, System *system) {
+static Status read_system(const Node *map, System *system) {
     static const char *const others[] = {"species", NULL};
-    const Node *map = NULL, *species = NULL;
-    TRY(find_required(root, "system", "what is simulated", &map));
+    Faults faults = {0};
+    const Node *species = tree_find(map, "species");
     TRY(options_default(&system_options, system));
-    TRY(read_section("system", &system_options, system, others, map, true));
-    TRY(find_required(map, "species", "a map from names to particles", &species));
-    return read_species(species, system);
+    TRY(faults_keep(&faults, read_section("system", &system_options, system, others, map, true)));
+    if (faults.count == 0) TRY(faults_keep(&faults, check_there(map, "species", SPECIES_ARE)));
+    if (species) TRY(faults_keep(&faults, read_species(species, system)));
+    return faults_tell(&faults);
 }
 
 // Keys over what `dynamics` holds already; another method than before starts from its defaults.
@@ -172,6 +176,14 @@ static Status default_observation(const Node *root, const ObservableKind *kind,
     return node ? read_observable_settings(node, kind, settings) : OK;
 }
 
+static Status check_observable(const Node *node) {
+    const ObservableKind *kind = NULL;
+    Settings settings = {{0}};
+    TRY(find_observable(node, node->key, &kind));
+    TRY(options_default(&kind->options, &settings));
+    return read_observable_settings(node, kind, &settings);
+}
+
 // Also those settings that no stage uses must be right.
 static Status check_observe(const Node *root) {
     const Node *observe = tree_find(root, "observe");
@@ -179,14 +191,11 @@ static Status check_observe(const Node *root) {
     if (observe->kind != NODE_MAP)
         return tree_fail(observe, "observe is a map from observables to settings here; a stage's "
                                   "own observe is a list");
+    Faults faults = {0};
     for (const Node *node = observe->first; node; node = node->next) {
-        const ObservableKind *kind = NULL;
-        Settings settings = {{0}};
-        TRY(find_observable(node, node->key, &kind));
-        TRY(options_default(&kind->options, &settings));
-        TRY(read_observable_settings(node, kind, &settings));
+        TRY(faults_keep(&faults, check_observable(node)));
     }
-    return OK;
+    return faults_tell(&faults);
 }
 
 // `pressure` or `pressure: {every: 1}`.
@@ -202,27 +211,31 @@ static Status read_observation(const Node *root, const Node *node, Observation *
     return read_observable_settings(node->first, observation->kind, &observation->settings);
 }
 
+static Status add_observation(const Node *root, const Node *node, Stage *stage) {
+    Observation *now = &stage->observations[stage->observation_count];
+    TRY(read_observation(root, node, now));
+    for (const Observation *other = stage->observations; other < now; other++) {
+        if (other->kind == now->kind)
+            return tree_fail(node, "%s is there twice in stage '%s'", now->kind->name, stage->name);
+    }
+    stage->observation_count++;
+    return OK;
+}
+
 static Status read_observations(const Node *root, const Node *list, Stage *stage) {
     if (list->kind != NODE_LIST)
         return tree_fail(list, "observe is a list of observables in a stage, such as [pressure]");
     if (list->count > OBSERVATIONS_MOST)
         return tree_fail(list, "%zu observables; at most %d have room", list->count,
                          OBSERVATIONS_MOST);
+    Faults faults = {0};
     for (const Node *node = list->first; node; node = node->next) {
-        Observation *now = &stage->observations[stage->observation_count];
-        TRY(read_observation(root, node, now));
-        for (const Observation *other = stage->observations; other < now; other++) {
-            if (other->kind == now->kind)
-                return tree_fail(node, "%s is there twice in stage '%s'", now->kind->name,
-                                 stage->name);
-        }
-        stage->observation_count++;
+        TRY(faults_keep(&faults, add_observation(root, node, stage)));
     }
-    return OK;
+    return faults_tell(&faults);
 }
 
-static Status read_stage(const Node *root, const Node *node, const Dynamics *dynamics,
-                         Stage *stage) {
+static Status read_stage_keys(const Node *node, Stage *stage) {
     static const char *const others[] = {"dynamics", "observe", NULL};
     char name[OPTION_TEXT_SIZE + sizeof "stage ''"] = "a stage";
     TRY(options_default(&stage_options, stage));
@@ -237,27 +250,41 @@ static Status read_stage(const Node *root, const Node *node, const Dynamics *dyn
     const OptionTarget targets[] = {
         {&stage_options, stage}, {&stage_until_options, stage}, {&drive_options, &stage->drive}};
     const OptionMap options = {name, targets, COUNT(targets), others};
-    TRY(options_read(&options, node, true));
-    stage->dynamics = *dynamics;
+    return options_read(&options, node, true);
+}
+
+// Keys over those of the whole run. If these name no known method, that has been told, and what the
+// stage changes of it cannot be judged.
+static Status read_stage_dynamics(const Node *node, const Dynamics *dynamics, Stage *stage) {
     const Node *own = tree_find(node, "dynamics");
-    if (own) TRY(read_dynamics(own, "dynamics", &stage->dynamics));
+    stage->dynamics = *dynamics;
+    if (!own || (!dynamics->kind && !tree_find(own, "method"))) return OK;
+    return read_dynamics(own, "dynamics", &stage->dynamics);
+}
+
+static Status read_stage(const Node *root, const Node *node, const Dynamics *dynamics,
+                         Stage *stage) {
+    Faults faults = {0};
     const Node *observe = tree_find(node, "observe");
-    return observe ? read_observations(root, observe, stage) : OK;
+    TRY(faults_keep(&faults, read_stage_keys(node, stage)));
+    TRY(faults_keep(&faults, read_stage_dynamics(node, dynamics, stage)));
+    if (observe) TRY(faults_keep(&faults, read_observations(root, observe, stage)));
+    return faults_tell(&faults);
 }
 
 static Status read_protocol(const Node *root, Plan *plan) {
-    const Node *list = NULL;
-    TRY(find_required(root, "protocol", "the list of stages", &list));
+    const Node *list = tree_find(root, "protocol");
     if (list->kind != NODE_LIST || list->count == 0)
         return tree_fail(list, "protocol is a list of stages, such as - {stage: quiescent, "
                                "time: 1, observe: [pressure]}");
     if (list->count > STAGES_MOST)
         return tree_fail(list, "%zu stages; at most %d have room", list->count, STAGES_MOST);
+    Faults faults = {0};
     for (const Node *node = list->first; node; node = node->next) {
-        TRY(read_stage(root, node, &plan->dynamics, &plan->stages[plan->stage_count]));
-        plan->stage_count++;
+        Stage *stage = &plan->stages[plan->stage_count++];
+        TRY(faults_keep(&faults, read_stage(root, node, &plan->dynamics, stage)));
     }
-    return OK;
+    return faults_tell(&faults);
 }
 
 static Status read_optional(const Node *root, const char *name, const OptionTable *table,
@@ -276,74 +303,124 @@ static Status read_theory_species(const Node *node, TheorySpecies *species) {
     return read_section(name, &theory_species_options, species, NULL, node, true);
 }
 
+static Status read_theory_mixture(const Node *map, TheoryPlan *theory) {
+    if (map->kind != NODE_MAP || map->count == 0)
+        return tree_fail(map, "species is a map from names to particles, such as "
+                              "{small: {diameter: 1, fraction: 1}}");
+    if (map->count > MIXTURE_SPECIES_MOST)
+        return tree_fail(map, "%zu species; at most %d have room", map->count,
+                         MIXTURE_SPECIES_MOST);
+    Faults faults = {0};
+    for (const Node *node = map->first; node; node = node->next) {
+        TheorySpecies *species = &theory->species[theory->species_count++];
+        TRY(faults_keep(&faults, read_theory_species(node, species)));
+    }
+    return faults_tell(&faults);
+}
+
 // A run of a theory has no other section.
 static Status check_alone(const Node *root, const char *section) {
     const char *const allowed[] = {"title", "sweep", section};
+    Faults faults = {0};
     for (const Node *node = root->first; node; node = node->next) {
         bool known = false;
         for (size_t i = 0; i < COUNT(allowed); i++) known = known || !strcmp(node->key, allowed[i]);
-        if (!known) return tree_fail(node, "a run file with '%s' has no '%s'", section, node->key);
+        if (known) continue;
+        TRY(faults_keep(&faults,
+                        tree_fail(node, "a run file with '%s' has no '%s'", section, node->key)));
     }
+    return faults_tell(&faults);
+}
+
+static Status read_theory(const Node *map, Plan *plan) {
+    static const char *const others[] = {"species", NULL};
+    TheoryPlan *theory = &plan->theory;
+    const Node *species = tree_find(map, "species");
+    Faults faults = {0};
+    TRY(options_default(&theory_options, theory));
+    TRY(faults_keep(&faults, read_section("theory", &theory_options, theory, others, map, true)));
+    if (faults.count == 0) TRY(faults_keep(&faults, check_there(map, "species", SPECIES_ARE)));
+    if (species) TRY(faults_keep(&faults, read_theory_mixture(species, theory)));
+    TRY(faults_tell(&faults));
+    theory_complete(theory);
+    plan->ensemble.replicas = 1;
     return OK;
 }
 
-static Status read_theory(const Node *root, const Node *map, Plan *plan) {
-    static const char *const others[] = {"species", NULL};
-    const Node *species = NULL;
-    TheoryPlan *theory = &plan->theory;
-    TRY(check_alone(root, "theory"));
-    TRY(options_default(&theory_options, theory));
-    TRY(read_section("theory", &theory_options, theory, others, map, true));
-    TRY(find_required(map, "species", "a map from names to particles", &species));
-    if (species->kind != NODE_MAP || species->count == 0)
-        return tree_fail(species, "species is a map from names to particles, such as "
-                                  "{small: {diameter: 1, fraction: 1}}");
-    if (species->count > MIXTURE_SPECIES_MOST)
-        return tree_fail(species, "%zu species; at most %d have room", species->count,
-                         MIXTURE_SPECIES_MOST);
-    for (const Node *node = species->first; node; node = node->next)
-        TRY(read_theory_species(node, &theory->species[theory->species_count++]));
-    theory_complete(theory);
-    plan->ensemble.replicas = 1;
-    return judge_theory(root, theory);
-}
-
-static Status read_itt(const Node *root, const Node *map, Plan *plan) {
-    TRY(check_alone(root, "itt"));
+static Status read_itt(const Node *map, Plan *plan) {
     TRY(options_default(&itt_options, &plan->itt));
     TRY(read_section("itt", &itt_options, &plan->itt, NULL, map, true));
     plan->itt.given = true;
     plan->ensemble.replicas = 1;
-    return judge_itt(root, &plan->itt);
+    return OK;
 }
 
-static Status read_schematic(const Node *root, const Node *map, Plan *plan) {
-    TRY(check_alone(root, "schematic"));
+static Status read_schematic(const Node *map, Plan *plan) {
     TRY(options_default(&schematic_options, &plan->schematic));
     TRY(read_section("schematic", &schematic_options, &plan->schematic, NULL, map, true));
     plan->schematic.given = true;
     plan->ensemble.replicas = 1;
-    return judge_schematic(root, &plan->schematic);
+    return OK;
+}
+
+// Sections that are not there are told by read_root.
+static Status read_simulation(const Node *root, Plan *plan) {
+    Faults faults = {0};
+    const Node *system = tree_find(root, "system"), *dynamics = tree_find(root, "dynamics");
+    if (system) TRY(faults_keep(&faults, read_system(system, &plan->system)));
+    if (dynamics) TRY(faults_keep(&faults, read_dynamics(dynamics, "dynamics", &plan->dynamics)));
+    TRY(faults_keep(&faults, check_observe(root)));
+    if (tree_find(root, "protocol")) TRY(faults_keep(&faults, read_protocol(root, plan)));
+    TRY(faults_keep(&faults, read_optional(root, "ensemble", &ensemble_options, &plan->ensemble)));
+    TRY(faults_keep(&faults, read_optional(root, "output", &output_options, &plan->output)));
+    return faults_tell(&faults);
+}
+
+// What is run instead of a simulation, by the name of its section.
+static const struct {
+    const char *name;
+    Status (*read)(const Node *map, Plan *plan);
+} theories[] = {{"theory", read_theory}, {"itt", read_itt}, {"schematic", read_schematic}};
+
+static Status read_subject(const Node *root, Plan *plan) {
+    size_t theory = 0;
+    while (theory < COUNT(theories) && !tree_find(root, theories[theory].name)) theory++;
+    if (theory == COUNT(theories)) return read_simulation(root, plan);
+    const char *name = theories[theory].name;
+    Faults faults = {0};
+    TRY(faults_keep(&faults, check_alone(root, name)));
+    TRY(faults_keep(&faults, theories[theory].read(tree_find(root, name), plan)));
+    return faults_tell(&faults);
+}
+
+static Status judge_subject(const Node *root, const Plan *plan) {
+    if (plan->itt.given) return judge_itt(root, &plan->itt);
+    if (plan->schematic.given) return judge_schematic(root, &plan->schematic);
+    if (plan_is_theory(plan)) return judge_theory(root, &plan->theory);
+    return judge_plan(root, plan);
+}
+
+// The names of the sections. One that is missing may be there under a wrong name.
+static Status read_root(const Node *root, Plan *plan) {
+    TRY(options_default(&section_title_options, plan));
+    TRY(read_section("the run file", &section_title_options, plan, section_root_keys, root, true));
+    for (size_t i = 0; i < COUNT(theories); i++) {
+        if (tree_find(root, theories[i].name)) return OK;
+    }
+    Faults faults = {0};
+    TRY(faults_keep(&faults, check_there(root, "system", "what is simulated")));
+    TRY(faults_keep(&faults,
+                    check_there(root, "dynamics", "how time advances, as {method: event-driven}")));
+    TRY(faults_keep(&faults, check_there(root, "protocol", "the list of stages")));
+    return faults_tell(&faults);
 }
 
 static Status read_plan(const Node *root, Plan *plan) {
-    const Node *dynamics = NULL;
-    TRY(options_default(&section_title_options, plan));
-    TRY(read_section("the run file", &section_title_options, plan, section_root_keys, root, true));
-    const Node *theory = tree_find(root, "theory");
-    if (theory) return read_theory(root, theory, plan);
-    const Node *itt = tree_find(root, "itt");
-    if (itt) return read_itt(root, itt, plan);
-    const Node *schematic = tree_find(root, "schematic");
-    if (schematic) return read_schematic(root, schematic, plan);
-    TRY(read_system(root, &plan->system));
-    TRY(find_required(root, "dynamics", "how time advances, as {method: event-driven}", &dynamics));
-    TRY(read_dynamics(dynamics, "dynamics", &plan->dynamics));
-    TRY(check_observe(root));
-    TRY(read_protocol(root, plan));
-    TRY(read_optional(root, "ensemble", &ensemble_options, &plan->ensemble));
-    TRY(read_optional(root, "output", &output_options, &plan->output));
-    return judge_plan(root, plan);
+    Faults faults = {0};
+    TRY(faults_keep(&faults, read_root(root, plan)));
+    TRY(faults_keep(&faults, read_subject(root, plan)));
+    TRY(faults_tell(&faults));
+    return judge_subject(root, plan);
 }
 
 static Status read_tree(Node *root, const ConfigOverrides *overrides, bool must_fit, Plan *plan) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run file from a Plan: every value written out. Settings of observables stand in the stages, so
-// that `observe:` at the top is not needed.
+// A run file from a Plan: every value written out, but those of drives that a stage has not.
+// Settings of observables stand in the stages, so that `observe:` at the top is not needed.
 #include "config/config.h"
 
 #include "base/memory.h"
@@ -22,6 +22,18 @@ static void write_row(const Option *row, const char *name, const void *settings,
     option_write(row, settings, text);
     const bool commented = row->unit[0] != '\0' && row->type != OPTION_DURATION;
     text_add(text, commented ? " # in %s\n" : "\n", row->unit);
+}
+
+// Whether a row at or below the key of `row` has another value than it has without being given.
+static bool is_given(const OptionTable *table, const Option *row, const void *settings) {
+    const size_t length = strcspn(row->name, ".");
+    for (size_t i = 0; i < table->count; i++) {
+        const char *name = table->rows[i].name;
+        if (strncmp(name, row->name, length) != 0 || (name[length] && name[length] != '.'))
+            continue;
+        if (!option_is_default(&table->rows[i], settings)) return true;
+    }
+    return false;
 }
 
 // Whether a row before this one begins with the same `length` letters.
@@ -84,18 +96,32 @@ static void write_observation(const Observation *observation, Text *text) {
     write_table(table, NULL, &observation->settings, 5 * STEP, text);
 }
 
+// The keys that are given alone, each map whole: of what drives a stage, one thing at most.
+static void write_given(const OptionTable *table, const void *settings, Text *text) {
+    enum { ROWS_MOST = 32 };
+    Option rows[ROWS_MOST];
+    size_t count = 0;
+    ASSERT(table->count <= ROWS_MOST);
+    for (size_t i = 0; i < table->count; i++) {
+        if (is_given(table, &table->rows[i], settings)) rows[count++] = table->rows[i];
+    }
+    const OptionTable given = {rows, count, table->size};
+    write_table(&given, NULL, settings, 2 * STEP, text);
+}
+
 // The unit of a stage's time depends on its method, which the table cannot know.
 static void write_stage(const Stage *stage, Text *text) {
     for (size_t i = 0; i < stage_options.count; i++) {
         const Option *row = &stage_options.rows[i];
+        if (i > 0 && option_is_default(row, stage)) continue; // it ends at a time or at a strain
         text_add(text, "%s%s: ", i == 0 ? "  - " : "    ", row->name);
         option_write(row, stage, text);
         if (strcmp(row->name, "time") == 0)
             text_add(text, " # in %s", stage->dynamics.kind->time_unit);
         text_add(text, "\n");
     }
-    write_table(&stage_until_options, NULL, stage, 2 * STEP, text);
-    write_table(&drive_options, NULL, &stage->drive, 2 * STEP, text);
+    write_given(&stage_until_options, stage, text);
+    write_given(&drive_options, &stage->drive, text);
     write_dynamics(&stage->dynamics, 2 * STEP, text);
     text_add(text, "    observe:%s\n", stage->observation_count ? "" : " []");
     for (size_t k = 0; k < stage->observation_count; k++) {

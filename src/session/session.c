@@ -25,22 +25,43 @@ struct Session {
     char report_note[1024];
 };
 
+// A line, cut between words where it is longer than a reader wants, as a whole stage would be.
+static void add_shortened(Text *text, const char *line) {
+    enum { LINE_SHOWN = 160 };
+    size_t length = strlen(line);
+    const bool cut = length > LINE_SHOWN;
+    if (cut) length = LINE_SHOWN;
+    while (cut && length > 0 && line[length] != ' ') length--;
+    text_bytes(text, line, length);
+    if (cut) text_put(text, " ...");
+}
+
+// The first lines of `difference`, which is used up, and how many there are besides.
+static void add_lines(Text *text, char *difference) {
+    enum { LINES_SHOWN = 6 };
+    size_t count = 0;
+    char *rest = NULL;
+    for (char *line = strtok_r(difference, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
+        if (++count > LINES_SHOWN) continue;
+        text_put(text, text->length ? "; " : "");
+        add_shortened(text, line);
+    }
+    if (count > LINES_SHOWN) text_add(text, "; and %zu more", count - LINES_SHOWN);
+}
+
 // Key by key, where the other plan can still be read: its version may know other keys.
 static Status tell_other_plan(const Session *session, const char *there) {
     Plan *other = NULL;
-    char *difference = NULL, *rest = NULL;
+    char *difference = NULL;
     Text keys = {0};
-    char sentence[1024];
+    char sentence[STATUS_SENTENCE_SIZE];
     snprintf(sentence, sizeof sentence, "%s", status_sentence());
     Status status = config_read_text(&other, "plan.yaml", there, strlen(there), NULL);
     if (status == OK) status = config_difference(other, session->plan, &difference);
-    char *line = status == OK ? strtok_r(difference, "\n", &rest) : NULL;
-    for (; line; line = strtok_r(NULL, "\n", &rest)) {
-        text_add(&keys, "%s%s", keys.length ? "; " : "", line);
-    }
+    if (status == OK) add_lines(&keys, difference);
     if (keys.length > 0 && text_status(&keys) == OK) {
         snprintf(sentence, sizeof sentence,
-                 "'%s' holds a run of another plan: %.700s; choose another directory with -o",
+                 "'%.1000s' holds a run of another plan: %s; choose another directory with -o",
                  store_directory(session->store), text_words(&keys));
     }
     text_free(&keys);

@@ -6,6 +6,7 @@
 #include "config/config.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 #include "config/options.h"
 #include "base/number.h"
 
@@ -401,6 +402,103 @@ START_TEST(every_key_of_every_table_can_be_explained) {
 }
 END_TEST
 
+START_TEST(a_stage_is_written_with_its_own_drive_alone) {
+    static const char sheared[] = "system: {dimension: 2, particles: 100, packing_fraction: 0.5, "
+                                  "species: {a: {shape: disc}}}\n"
+                                  "dynamics: {method: event-driven, thermostat_interval: 0.01}\n"
+                                  "protocol:\n"
+                                  "  - {stage: rest, time: 1}\n"
+                                  "  - {stage: flow, strain: 2, shear_rate: 0.5}\n";
+    Plan *plan = plan_of(sheared, NULL), *again = NULL;
+    char *text = NULL;
+    ck_assert_int_eq(config_write(plan, &text), OK);
+    const char *rest = strstr(text, "stage: \"rest\""), *flow = strstr(text, "stage: \"flow\"");
+    ck_assert_ptr_nonnull(rest);
+    ck_assert_ptr_nonnull(flow);
+    ck_assert(strstr(rest, "shear_rate") > flow);
+    ck_assert(strstr(rest, "strain") > flow);
+    ck_assert_ptr_nonnull(strstr(flow, "shear_rate: 0.5"));
+    ck_assert_ptr_null(strstr(flow, " time:"));
+    ck_assert_ptr_null(strstr(text, "pull"));
+    ck_assert_ptr_null(strstr(text, "until"));
+    again = plan_of(text, NULL);
+    assert_equal(plan, again);
+    memory_free(text);
+    memory_free(plan);
+    memory_free(again);
+}
+END_TEST
+
+static void assert_refused(const char *text, const char *sentences) {
+    Plan *plan = NULL;
+    ck_assert_int_eq(config_read_text(&plan, "slips", text, strlen(text), NULL), BAD_DATA);
+    ck_assert_ptr_null(plan);
+    ck_assert_str_eq(status_sentence(), sentences);
+}
+
+// The misspelt key is not asked for again as one that is missing, nor is the stage's step judged
+// under a method that is unknown, nor the same setting told for each stage that uses it.
+START_TEST(all_slips_of_a_run_file_are_told_at_once) {
+    assert_refused("system:\n"
+                   "  dimension: 4\n"
+                   "  particels: 100\n"
+                   "  packing_fraction: 0.7\n"
+                   "  species: {a: {shape: disk, fraction: 1}}\n"
+                   "dynamics: {method: event-drivn}\n"
+                   "protocol:\n"
+                   "  - {stage: settle, time: 5, dynamics: {step: 1}, observe: [pressure]}\n"
+                   "  - {stage: rest, tim: 10, observe: [pressure]}\n"
+                   "observe: {pressure: {blocks: -3}}\n",
+                   "slips:2:3: error: dimension = 4 is out of range; expected a value from 2 to 3\n"
+                   "slips:3:3: error: unknown key 'particels' in system; did you mean "
+                   "'particles'?\n"
+                   "slips:5:17: error: shape = disk is unknown; did you mean disc?\n"
+                   "slips:6:12: error: unknown method 'event-drivn'; did you mean event-driven?\n"
+                   "slips:10:22: error: blocks = -3 is out of range; expected a value from 1 to "
+                   "100000\n"
+                   "slips:9:19: error: unknown key 'tim' in stage 'rest'; did you mean 'time'?");
+}
+END_TEST
+
+START_TEST(what_no_single_value_shows_is_told_at_once_too) {
+    assert_refused("system:\n"
+                   "  dimension: 2\n"
+                   "  particles: 100\n"
+                   "  packing_fraction: 0.7\n"
+                   "  box: {aspect: [1, 1, 1]}\n"
+                   "  species:\n"
+                   "    a: {shape: sphere, fraction: 0.5}\n"
+                   "    b: {shape: disc, length: 3, fraction: 0.5}\n"
+                   "dynamics: {method: event-driven, thermostat_interval: 0.01}\n"
+                   "protocol: [{stage: rest, time: 1}]\n",
+                   "slips:5:9: error: box.aspect has 3 numbers; a box in 2 dimensions has 2 "
+                   "edges\n"
+                   "slips:7:9: error: shape = sphere lives in 3 dimensions, but dimension = 2\n"
+                   "slips:8:22: error: length = 3 is that of a spherocylinder; a disc has none");
+    assert_refused("title: nothing\n", "slips:1:1: error: there is no 'system': what is simulated\n"
+                                       "slips:1:1: error: there is no 'dynamics': how time "
+                                       "advances, as {method: event-driven}\n"
+                                       "slips:1:1: error: there is no 'protocol': the list of "
+                                       "stages");
+}
+END_TEST
+
+START_TEST(of_many_slips_the_first_ten_are_told) {
+    Text text = {0};
+    for (int i = 1; i <= 30; i++) text_add(&text, "unheard-of-%d: 1\n", i);
+    Plan *plan = NULL;
+    ck_assert_int_eq(config_read_text(&plan, "slips", text.bytes, text.length, NULL), BAD_DATA);
+    const char *line = status_sentence();
+    for (int i = 1; i <= 10; i++, line += strcspn(line, "\n") + 1) {
+        char begin[64];
+        const int length = snprintf(begin, sizeof begin, "slips:%d:1: error: unknown key", i);
+        ck_assert_msg(strncmp(line, begin, (size_t)length) == 0, "%s", line);
+        if (i == 10) ck_assert_ptr_null(strchr(line, '\n'));
+    }
+    text_free(&text);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("config");
     TCase *cases = tcase_create("run files");
@@ -421,6 +519,10 @@ int main(void) {
     tcase_add_test(cases, only_decimal_numbers_are_numbers);
     tcase_add_test(cases, whole_numbers_are_exact);
     tcase_add_test(cases, every_key_of_every_table_can_be_explained);
+    tcase_add_test(cases, a_stage_is_written_with_its_own_drive_alone);
+    tcase_add_test(cases, all_slips_of_a_run_file_are_told_at_once);
+    tcase_add_test(cases, what_no_single_value_shows_is_told_at_once_too);
+    tcase_add_test(cases, of_many_slips_the_first_ten_are_told);
     suite_add_tcase(suite, cases);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
