@@ -56,8 +56,10 @@ static Status search_create(Search *search, const CriticalSearch *wanted) {
     const Structure *structure = NULL;
     *search = (Search){.low = wanted->low, .high = wanted->high};
     TRY(grid_create(&search->grid, wanted->mixture.dimension, wanted->count, wanted->last));
-    TRY(oz_create(&search->oz, wanted->closure, &wanted->mixture, search->grid->wave_number,
-                  search->grid->count));
+    TRY(wanted->measured ? oz_create_measured(&search->oz, wanted->measured,
+                                              search->grid->wave_number, search->grid->count)
+                         : oz_create(&search->oz, wanted->closure, &wanted->mixture,
+                                     search->grid->wave_number, search->grid->count));
     TRY(solve_high(search, &structure));
     TRY(model_create(&search->model, search->grid, structure));
     TRY(stability_create(&search->stability, search->model));

@@ -23,9 +23,10 @@ typedef struct CriticalPoint {
 typedef struct CriticalSearch {
     Mixture mixture;
     Closure closure;
-    size_t count;     // of wave numbers
-    double last;      // the largest of them
-    double low, high; // packing fractions: a fluid, a glass
+    size_t count;             // of wave numbers
+    double last;              // the largest of them
+    double low, high;         // packing fractions: a fluid, a glass
+    const Measured *measured; // structure in place of the closure's; NULL: none
 } CriticalSearch;
 
 // By bisection, then by extrapolation of states a little above: packing fraction, lambda and all

@@ -39,8 +39,10 @@ struct Oz {
     Closure closure;
     Structure structure;
     double *wave_number;
-    Discs *discs;       // one of the two,
-    Closures *closures; // or none: a closed form
+    Discs *discs;                        // one of the two,
+    Closures *closures;                  // or none: a closed form
+    const Measured *measured;            // differences from Percus-Yevick; NULL: none
+    double *splines[MIXTURE_PAIRS_MOST]; // [count][spline]: their transforms
     OzEffort effort;
 };
 
@@ -66,7 +68,7 @@ static Status prepare(Oz *oz, const double *wave_number, size_t count) {
     TRY(NEW_ARRAY(s->factor, pairs * count));
     memcpy(oz->wave_number, wave_number, count * sizeof *wave_number);
     s->wave_number = oz->wave_number;
-    const bool percus_yevick = oz->closure == CLOSURE_PERCUS_YEVICK;
+    const bool percus_yevick = oz->closure == CLOSURE_PERCUS_YEVICK || oz->measured;
     if (!percus_yevick && !closed_forms[oz->closure].fill)
         return closures_create(&oz->closures, oz->closure, &s->mixture, wave_number, count);
     const bool discs = percus_yevick && s->mixture.dimension == 2;
@@ -77,6 +79,8 @@ Status oz_create(Oz **out, Closure closure, const Mixture *mixture, const double
                  size_t count) {
     Oz *oz = NULL;
     *out = NULL;
+    if (closure == CLOSURE_MEASURED)
+        return status_fail(BAD_DATA, "a measured structure comes from a file");
     TRY(check(closure, mixture));
     TRY(NEW(oz));
     oz->closure = closure;
@@ -89,10 +93,40 @@ Status oz_create(Oz **out, Closure closure, const Mixture *mixture, const double
     return status;
 }
 
+static Status prepare_splines(Oz *oz) {
+    const Structure *s = &oz->structure;
+    for (size_t a = 0; a < s->mixture.species; a++) {
+        for (size_t b = a; b < s->mixture.species; b++) {
+            double **splines = &oz->splines[mixture_pair(s->mixture.species, a, b)];
+            TRY(NEW_ARRAY(*splines, s->count * measured_splines(oz->measured, a, b)));
+            measured_transforms(oz->measured, a, b, s->wave_number, s->count, *splines);
+        }
+    }
+    return OK;
+}
+
+Status oz_create_measured(Oz **out, const Measured *measured, const double *wave_number,
+                          size_t count) {
+    Oz *oz = NULL;
+    *out = NULL;
+    TRY(NEW(oz));
+    oz->closure = CLOSURE_MEASURED;
+    oz->measured = measured;
+    oz->structure.mixture = *measured_mixture(measured);
+    Status status = prepare(oz, wave_number, count);
+    if (status == OK) status = prepare_splines(oz);
+    if (status == OK)
+        *out = oz;
+    else
+        oz_free(oz);
+    return status;
+}
+
 void oz_free(Oz *oz) {
     if (!oz) return;
     discs_free(oz->discs);
     closures_free(oz->closures);
+    for (size_t pair = 0; pair < MIXTURE_PAIRS_MOST; pair++) memory_free(oz->splines[pair]);
     memory_free(oz->wave_number);
     memory_free(oz->structure.direct);
     memory_free(oz->structure.factor);
@@ -106,6 +140,32 @@ static Status fill_direct(Oz *oz) {
         closed_forms[oz->closure].fill(&oz->structure);
     else
         closed_spheres(&oz->structure);
+    return OK;
+}
+
+// What was measured beyond Percus-Yevick, of one pair. As c steps at contact, so does g.
+static Status add_difference(Oz *oz, size_t a, size_t b) {
+    Structure *s = &oz->structure;
+    const size_t pair = mixture_pair(s->mixture.species, a, b);
+    const size_t splines = measured_splines(oz->measured, a, b);
+    double *coefficients = NULL;
+    TRY(NEW_ARRAY(coefficients, splines));
+    const Status status =
+        measured_coefficients(oz->measured, s->packing_fraction, a, b, coefficients);
+    for (size_t m = 0; m < s->count && status == OK; m++) {
+        const double *transform = oz->splines[pair] + m * splines;
+        for (size_t n = 0; n < splines; n++)
+            s->direct[pair * s->count + m] += coefficients[n] * transform[n];
+    }
+    s->contact[pair] += measured_step(oz->measured, a, b, coefficients);
+    memory_free(coefficients);
+    return status;
+}
+
+static Status add_differences(Oz *oz) {
+    for (size_t a = 0; a < oz->structure.mixture.species; a++) {
+        for (size_t b = a; b < oz->structure.mixture.species; b++) TRY(add_difference(oz, a, b));
+    }
     return OK;
 }
 
@@ -138,6 +198,7 @@ Status oz_solve(Oz *oz, double packing_fraction, const Structure **out) {
     s->density = mixture_density(&s->mixture, packing_fraction);
     oz->effort = (OzEffort){0};
     TRY(fill_direct(oz));
+    if (oz->measured) TRY(add_differences(oz));
     for (size_t i = 0; i < s->count; i++) TRY(fill_factor(s, i));
     *out = s;
     return OK;

@@ -4,6 +4,7 @@
 // c_ab(q) and structure factors S_ab(q) at given wave numbers.
 #pragma once
 
+#include "oz/measured.h"
 #include "oz/mixture.h"
 
 #include <stdbool.h>
@@ -36,6 +37,9 @@ typedef struct Oz Oz;
 // BAD_DATA if the closed form is for another dimension or for one species only.
 Status oz_create(Oz **out, Closure closure, const Mixture *mixture, const double *wave_number,
                  size_t count);
+// The same from what was measured, which is borrowed.
+Status oz_create_measured(Oz **out, const Measured *measured, const double *wave_number,
+                          size_t count);
 void oz_free(Oz *oz);
 
 // The structure at this packing fraction, borrowed until the next call. Solutions are followed from
