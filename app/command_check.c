@@ -205,7 +205,7 @@ static Status print_plan(const Plan *plan) {
     }
     if (plan_is_theory(plan)) {
         print_theory(&plan->theory);
-        return OK;
+        return plan_check_input(plan);
     }
     print_system(&plan->system);
     print_species(&plan->system);

@@ -19,7 +19,7 @@ typedef enum OptionType {
     OPTION_DURATION, // double, wall-clock seconds; "600 s", "10 min", "2 h"
 } OptionType;
 
-enum { OPTION_TEXT_SIZE = 128, OPTION_LIST_SIZE = 64 };
+enum { OPTION_TEXT_SIZE = 256, OPTION_LIST_SIZE = 64 };
 
 typedef struct OptionReals {
     int64_t count;

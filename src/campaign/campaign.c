@@ -23,7 +23,7 @@ typedef enum Turn { WAITING, RUNNING, ENDED } Turn;
 typedef struct Point {
     Turn turn;
     double work; // expected CPU seconds of all its replicas
-    size_t replicas;
+    size_t replicas, slots;
     Plan *plan; // while it runs
     Session *session;
 } Point;
@@ -50,6 +50,7 @@ static Status weigh_points(Campaign *campaign) {
         Plan *plan = NULL;
         TRY(config_point_plan(&plan, campaign->points, p));
         point->replicas = (size_t)plan->ensemble.replicas;
+        point->slots = plan_slots(plan);
         point->work = plan_seconds(plan) * (double)point->replicas;
         campaign->work += point->work;
         memory_free(plan);
@@ -337,7 +338,7 @@ static Status write_all(Campaign *campaign, Results *all) {
 static Status finish_sweep(Campaign *campaign, Results **out) {
     size_t replicas = 0;
     for (size_t p = 0; p < campaign->count; p++) {
-        if (campaign->point[p].replicas > replicas) replicas = campaign->point[p].replicas;
+        if (campaign->point[p].slots > replicas) replicas = campaign->point[p].slots;
     }
     Results *all = NULL;
     TRY(results_create(&all, replicas));

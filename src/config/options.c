@@ -27,6 +27,15 @@ const Option *option_named(const OptionTable *table, const char *name) {
     return NULL;
 }
 
+const Option *option_may_be_map(const OptionTable *table, const Option *row) {
+    const size_t length = strlen(row->name);
+    for (size_t i = 0; i < table->count; i++) {
+        const char *name = table->rows[i].name;
+        if (strncmp(name, row->name, length) == 0 && name[length] == '.') return &table->rows[i];
+    }
+    return NULL;
+}
+
 static void *field(const Option *row, void *settings) {
     return (char *)settings + row->offset;
 }
@@ -462,7 +471,9 @@ static Status read_key(const OptionMap *options, const Node *node, const char *p
         return fail_unknown(options, node, prefix);
     for (size_t t = 0; t < options->count; t++) {
         const Option *row = option_named(options->targets[t].table, path);
-        if (row) return option_read(row, node, options->targets[t].settings);
+        const bool map =
+            row && node->kind == NODE_MAP && option_may_be_map(options->targets[t].table, row);
+        if (row && !map) return option_read(row, node, options->targets[t].settings);
     }
     if (prefix[0] == '\0' && is_other(options, node->key)) return OK;
     strcat(path, ".");

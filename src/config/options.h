@@ -39,3 +39,7 @@ bool option_is_default(const Option *row, const void *settings);
 void option_describe(const Option *row, Text *text);
 
 const Option *option_named(const OptionTable *table, const char *name); // NULL if none
+
+// The first row below `row`, "structure.file" of "structure", whose value is then a word or a map;
+// NULL: there is none, it is a word. Of a map that row is a text and not empty.
+const Option *option_may_be_map(const OptionTable *table, const Option *row);

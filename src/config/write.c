@@ -44,6 +44,21 @@ static bool came_before(const OptionTable *table, size_t index, size_t length) {
     return false;
 }
 
+// The first row below this one, if it is given as a map and not as a word.
+static const Option *map_of(const OptionTable *table, const Option *row, const void *settings) {
+    const Option *first = option_may_be_map(table, row);
+    return first && ((const char *)settings)[first->offset] != '\0' ? first : NULL;
+}
+
+// Whether the first `length` letters of `path` are a row of their own.
+static bool is_word(const OptionTable *table, const char *path, size_t length) {
+    for (size_t i = 0; i < table->count; i++) {
+        const char *name = table->rows[i].name;
+        if (strlen(name) == length && strncmp(name, path, length) == 0) return true;
+    }
+    return false;
+}
+
 // The rows below the first `prefix` letters of row `first`: those with a further dot are a map.
 static void write_level(const OptionTable *table, const char *but, const void *settings,
                         size_t first, size_t prefix, size_t blanks, Text *text) {
@@ -51,16 +66,19 @@ static void write_level(const OptionTable *table, const char *but, const void *s
         const char *path = table->rows[i].name, *name = path + prefix;
         if (strncmp(path, table->rows[first].name, prefix) != 0) continue;
         if (but && strcmp(path, but) == 0) continue;
+        const Option *map = map_of(table, &table->rows[i], settings);
         const char *dot = strchr(name, '.');
-        if (!dot) {
+        if (!dot && !map) {
             write_row(&table->rows[i], name, settings, blanks, text);
             continue;
         }
-        const size_t below = (size_t)(dot + 1 - path);
-        if (came_before(table, i, below)) continue;
+        const size_t letters = map ? strlen(name) : (size_t)(dot - name);
+        const size_t below = (size_t)(name - path) + letters + 1;
+        if (!map && (came_before(table, i, below) || is_word(table, path, below - 1))) continue;
         indent(text, blanks);
-        text_add(text, "%.*s:\n", (int)(dot - name), name);
-        write_level(table, but, settings, i, below, blanks + STEP, text);
+        text_add(text, "%.*s:\n", (int)letters, name);
+        write_level(table, but, settings, map ? (size_t)(map - table->rows) : i, below,
+                    blanks + STEP, text);
     }
 }
 

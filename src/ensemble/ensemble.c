@@ -29,7 +29,7 @@ static Status allocate(Ensemble *ensemble, const Plan *plan) {
     ensemble->threads = slots < replicas ? slots : replicas;
     TRY(NEW_ARRAY(ensemble->thread, ensemble->threads));
     TRY(NEW_ARRAY(shared->units, replicas));
-    return results_create(&shared->results, replicas);
+    return results_create(&shared->results, plan_slots(plan));
 }
 
 Status ensemble_create(Ensemble **out, const Plan *plan, Store *store, EnsembleSlots *slots) {
@@ -173,7 +173,7 @@ static Status put_health(const EnsembleShared *shared) {
 
 static Status put_speed(const EnsembleShared *shared) {
     double seconds = 0, steps = 0, packing = 0;
-    for (size_t r = 0; r < shared->results->replicas; r++) {
+    for (size_t r = 0; r < (size_t)shared->plan->ensemble.replicas; r++) {
         seconds += shared->units[r].cpu_seconds;
         steps += tally_particle_steps(&shared->units[r].health.tally,
                                       (double)shared->plan->system.particles);
@@ -194,7 +194,8 @@ Status ensemble_finish(Ensemble *ensemble, Results **out) {
     for (; ensemble->started > 0; ensemble->started--) {
         pthread_join(ensemble->thread[ensemble->started - 1], NULL);
     }
-    for (size_t r = 0; shared->failure == OK && r < shared->results->replicas; r++) {
+    const size_t replicas = (size_t)shared->plan->ensemble.replicas;
+    for (size_t r = 0; shared->failure == OK && r < replicas; r++) {
         if (!shared->units[r].finished) {
             shared->failure = status_fail(INTERRUPTED, "stopped before replica %zu was done", r);
             snprintf(shared->sentence, sizeof shared->sentence, "%s", status_sentence());

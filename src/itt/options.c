@@ -126,6 +126,9 @@ static Status check_wave_numbers(const IttPlan *plan) {
 }
 
 Status itt_check(const IttPlan *plan) {
+    if (plan->structure == CLOSURE_MEASURED)
+        return status_fail(BAD_DATA, "structure = %s is not for itt, but for the section theory",
+                           itt_structure_name(plan));
     if (plan->structure == CLOSURE_VERLET_WEIS)
         return status_fail(BAD_DATA, "structure = %s is for spheres; itt is for discs",
                            itt_structure_name(plan));

@@ -222,6 +222,15 @@ Status plan_check(const Plan *plan) {
     return OK;
 }
 
+Status plan_check_input(const Plan *plan) {
+    return plan->theory.species_count > 0 ? theory_check_input(&plan->theory) : OK;
+}
+
+size_t plan_slots(const Plan *plan) {
+    if (plan->theory.species_count > 0) return theory_slots(&plan->theory);
+    return (size_t)plan->ensemble.replicas;
+}
+
 size_t plan_memory(const Plan *plan) {
     if (plan->itt.given) return itt_memory(&plan->itt);
     if (plan->schematic.given) return schematic_memory(&plan->schematic);

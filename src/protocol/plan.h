@@ -71,6 +71,9 @@ Clock plan_clock(const Plan *plan, size_t stage);
 
 // BAD_DATA with a sentence if something cannot be: method against shape, density, observations.
 Status plan_check(const Plan *plan);
+// Likewise, if a file that is read is not there or does not fit.
+Status plan_check_input(const Plan *plan);
+size_t plan_slots(const Plan *plan); // of its Results: replicas, or groups of those that it reads
 
 size_t plan_memory(const Plan *plan);  // bytes of one replica
 double plan_seconds(const Plan *plan); // rough CPU seconds of one replica

@@ -229,6 +229,10 @@ size_t figure_columns(const Figure *figure) {
     return columns;
 }
 
+bool figure_has_errors(const Figure *figure) {
+    return figure->results->replicas > 1 && !figure_is_theory(figure);
+}
+
 bool figure_is_theory(const Figure *figure) { // stages of theories bear their section's name
     const char *stage = figure->series->stage;
     return strcmp(stage, "theory") == 0 || strcmp(stage, "schematic") == 0;
@@ -245,9 +249,9 @@ void figure_caption(Text *text, const Figure *figure) {
     notation_unit(text, kind && kind->about ? kind->about : figure->series->about);
     if ((figure->line || figure->level || figure->limit[0]) && kind->about_line)
         text_add(text, " %s", kind->about_line);
-    if (results->replicas > 1 && figure->y) {
+    if (figure_has_errors(figure) && figure->y) {
         text_add(text, " Mean over %zu replicas.", results->replicas);
-    } else if (results->replicas > 1) {
+    } else if (figure_has_errors(figure)) {
         text_add(text, " Mean over %zu replicas; %s: standard error of the mean.",
                  results->replicas, figure_is_dense(figure) ? "bands" : "bars");
     } else if (!figure_is_theory(figure)) {

@@ -76,7 +76,8 @@ typedef struct Figure {
 
 size_t figure_columns(const Figure *figure); // of the numbers of a curve
 bool figure_is_theory(const Figure *figure); // not of a simulation: has neither replicas nor errors
-bool figure_is_dense(const Figure *figure);  // too many points for a mark on each
+bool figure_has_errors(const Figure *figure);
+bool figure_is_dense(const Figure *figure); // too many points for a mark on each
 
 Figure figure_of(const Results *results, const ResultSeries *series);
 

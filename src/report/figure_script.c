@@ -177,7 +177,7 @@ static void put_lower(Text *script, const Figure *figure, const char *value, con
 // a plain line, not to hide its parts.
 static void put_curve(Text *script, const Figure *figure, size_t curve, const char *value,
                       const char *error, const char *title) {
-    const bool has_errors = figure->results->replicas > 1, dense = figure_is_dense(figure);
+    const bool has_errors = figure_has_errors(figure), dense = figure_is_dense(figure);
     const size_t look = look_of(figure, curve);
     if (curve > 0) text_put(script, ", \\\n");
     if (has_errors && dense) {

@@ -83,9 +83,13 @@ void page_begin(Text *page, const Results *results) {
     html_words(page, title);
     text_put(page, "</h1>\n<p class=\"under\">");
     put_system(page, results);
-    text_add(page, "%zu replica%s, seed ", results->replicas, results->replicas == 1 ? "" : "s");
-    html_words(page, fact(results, "seed", "unknown"));
-    text_put(page, ". Perrin ");
+    if (results_find_fact(results, "seed")) { // not of a theory, where nothing is random
+        text_add(page, "%zu replica%s, seed ", results->replicas,
+                 results->replicas == 1 ? "" : "s");
+        html_words(page, fact(results, "seed", "unknown"));
+        text_put(page, ". ");
+    }
+    text_put(page, "Perrin ");
     html_words(page, fact(results, "version", ""));
     text_put(page, ", finished ");
     html_words(page, fact(results, "finished", "at an unknown time"));

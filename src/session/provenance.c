@@ -3,6 +3,7 @@
 #include "session/provenance.h"
 
 #include "base/cpu.h"
+#include "base/number.h"
 #include "base/text.h"
 #include "base/version.h"
 
@@ -58,6 +59,31 @@ static Status put_system(Results *results, const System *system) {
         if (species->mass != 1) text_add(&words, " and mass %.6g", species->mass);
     }
     const Status status = results_put_fact(results, "system", text_words(&words));
+    text_free(&words);
+    return status;
+}
+
+// For machines, where all are hard discs or spheres of one size for each species:
+// "dimension=2 packing_fraction=0.7 diameters=1,1.4 fractions=0.5,0.5".
+static Status put_mixture(Results *results, const System *system) {
+    size_t counts[SPECIES_MOST];
+    char number[NUMBER_SIZE];
+    Text words = {0};
+    system_counts(system, counts);
+    text_add(&words, "dimension=%d packing_fraction=%s", (int)system->dimension,
+             number_write(number, system_packing_fraction(system)));
+    for (int fractions = 0; fractions < 2; fractions++) {
+        text_put(&words, fractions ? " fractions=" : " diameters=");
+        for (size_t s = 0; s < system->species_count; s++) {
+            const Species *species = &system->species[s];
+            const bool hard = species->shape == SHAPE_DISC || species->shape == SHAPE_SPHERE;
+            if (!hard || species->spread != SPREAD_NONE) return text_free(&words), OK;
+            const double value =
+                fractions ? (double)counts[s] / (double)system->particles : species->diameter;
+            text_add(&words, "%s%s", s ? "," : "", number_write(number, value));
+        }
+    }
+    const Status status = results_put_fact(results, "mixture", text_words(&words));
     text_free(&words);
     return status;
 }
@@ -120,6 +146,7 @@ Status provenance_put(Results *results, const Plan *plan, const char *plan_text,
         TRY(put_theory(results, &plan->theory));
     } else {
         TRY(put_system(results, &plan->system));
+        TRY(put_mixture(results, &plan->system));
         TRY(put_stages(results, plan));
     }
     TRY(results_put_fact(results, "version", version_number()));
@@ -127,8 +154,10 @@ Status provenance_put(Results *results, const Plan *plan, const char *plan_text,
     TRY(results_put_fact(results, "compiler", version_compiler()));
     TRY(results_put_fact(results, "flags", version_flags()));
     TRY(results_put_fact(results, "vector_path", cpu_path_name(cpu_path())));
-    TRY(put_integer(results, "seed", plan->ensemble.seed));
-    TRY(put_integer(results, "replicas", plan->ensemble.replicas));
+    if (!plan_is_theory(plan)) { // where nothing is random
+        TRY(put_integer(results, "seed", plan->ensemble.seed));
+        TRY(put_integer(results, "replicas", plan->ensemble.replicas));
+    }
     TRY(results_put_fact(results, "plan", plan_text));
     return put_when_and_where(results, seconds);
 }

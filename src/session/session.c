@@ -88,6 +88,7 @@ bool session_has_plan(const char *directory) {
 
 static Status begin(Session *session, const SessionWishes *wishes) {
     TRY(plan_check(session->plan));
+    TRY(plan_check_input(session->plan));
     // Before the directory is made: a wish that cannot be granted leaves nothing behind.
     if (wishes->must_resume && !session_has_plan(wishes->directory)) {
         return status_fail(BAD_USAGE, "nothing to resume in %s", wishes->directory);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The section `theory` of a run file: its tables, what cannot be, what it costs.
-#include "theory/theory.h"
+#include "theory/input.h"
 
 #include "oz/oz.h"
 
@@ -25,8 +25,29 @@ static const Option rows[] = {
      .fallback = CLOSURE_PERCUS_YEVICK,
      .unit = "",
      .about = "Where the structure factors come from: a closure of the Ornstein-Zernike equation, "
-              "or a closed form for one species.",
+              "or a closed form for one species; or a simulation, as {file: results.h5}.",
      .choices = closure_names},
+    {.name = "structure.file",
+     .type = OPTION_TEXT,
+     .offset = offsetof(TheoryPlan, input.file),
+     .unit = "",
+     .about = "A results.h5, a run directory, or a folder of such with a packing fraction each, as "
+              "a sweep makes: structure_factor was observed there, best up to 40/d in shells of "
+              "0.1. Relative paths begin where perrin is run."},
+    {.name = "structure.stage",
+     .type = OPTION_TEXT,
+     .offset = offsetof(TheoryPlan, input.stage),
+     .unit = "",
+     .about = "The stage whose structure_factor is read; empty: the only one that has it."},
+    {.name = "structure.groups",
+     .type = OPTION_INTEGER,
+     .offset = offsetof(TheoryPlan, input.groups),
+     .fallback = 8,
+     .least = 1,
+     .most = 1000,
+     .unit = "",
+     .about = "Replicas fall into so many groups, each of which is left out in turn: from what "
+              "then changes follow the errors of the transition and its exponents. 1: no errors."},
     {.name = "packing_fraction",
      .type = OPTION_REAL,
      .offset = offsetof(TheoryPlan, packing_fraction),
@@ -202,6 +223,17 @@ void theory_complete(TheoryPlan *plan) {
         if (plan->species[a].fraction == 0) rest = &plan->species[a];
     }
     if (rest) rest->fraction = fmax(0, 1 - sum);
+    if (plan->input.file[0]) plan->structure = CLOSURE_MEASURED;
+}
+
+static bool wants_transition(const TheoryPlan *plan) {
+    return wants(plan, THEORY_CRITICAL) || wants(plan, THEORY_EXPONENTS) ||
+           wants(plan, THEORY_BETA) || wants(plan, THEORY_MASTER) || plan->separation != 0;
+}
+
+size_t theory_slots(const TheoryPlan *plan) {
+    const bool errors = plan->structure == CLOSURE_MEASURED && wants_transition(plan);
+    return errors ? (size_t)plan->input.groups : 1;
 }
 
 static Status check_fractions(const TheoryPlan *plan) {
@@ -230,6 +262,9 @@ static Status check_flow_curve(const TheoryPlan *plan) {
 
 Status theory_check(const TheoryPlan *plan) {
     TRY(check_fractions(plan));
+    if (plan->structure == CLOSURE_MEASURED && !plan->input.file[0])
+        return status_fail(BAD_DATA, "a measured structure needs a file; write structure: {file: "
+                                     "results.h5}");
     if (plan->calculate == 0) return status_fail(BAD_DATA, "calculate names nothing");
     if (oz_is_of_one_species((Closure)plan->structure) && plan->species_count > 1)
         return status_fail(BAD_DATA, "structure = %s is for one species, not %zu",
@@ -256,6 +291,43 @@ Status theory_check(const TheoryPlan *plan) {
     return OK;
 }
 
+static const double COMPOSITION =
+    1e-2; // how far diameters and fractions may be from those of a file
+
+static Status check_mixture(const TheoryPlan *plan, const Mixture *mixture) {
+    bool same = mixture->dimension == plan->dimension && mixture->species == plan->species_count;
+    for (size_t a = 0; a < plan->species_count && same; a++)
+        same = fabs(mixture->diameter[a] / plan->species[a].diameter - 1) < COMPOSITION &&
+               fabs(mixture->fraction[a] - plan->species[a].fraction) < COMPOSITION;
+    return same ? OK
+                : status_fail(BAD_DATA,
+                              "structure.file = %s: the species there are not those here: their "
+                              "order, diameters and fractions must be the same",
+                              plan->input.file);
+}
+
+Status theory_read_input(Measurements **out, const TheoryPlan *plan) {
+    TRY(measurements_read(out, plan->input.file, plan->input.stage));
+    Status status = check_mixture(plan, measurements_mixture(*out));
+    if (status == OK && wants_transition(plan) && measurements_count(*out) < 2)
+        status = status_fail(BAD_DATA,
+                             "structure.file = %s: the glass transition is looked for between "
+                             "packing fractions; structure factors of two at least are needed",
+                             plan->input.file);
+    if (status == OK) return OK;
+    measurements_free(*out);
+    *out = NULL;
+    return status;
+}
+
+Status theory_check_input(const TheoryPlan *plan) {
+    Measurements *measurements = NULL;
+    if (plan->structure != CLOSURE_MEASURED) return OK;
+    TRY(theory_read_input(&measurements, plan));
+    measurements_free(measurements);
+    return OK;
+}
+
 size_t theory_memory(const TheoryPlan *plan) {
     const double species = (double)plan->species_count, waves = (double)plan->wave_numbers;
     const double tables = 3 * 1.5 * waves * waves, unknowns = 100 * species * species;
@@ -268,7 +340,8 @@ double theory_seconds(const TheoryPlan *plan) {
     const double species = (double)plan->species_count, waves = (double)plan->wave_numbers;
     const double kernel = 1e-9 * 1.5 * waves * waves * species * (species + 1) / 2;
     double evaluations = 200;
-    if (plan->calculate & (1u << THEORY_CRITICAL | 1u << THEORY_EXPONENTS)) evaluations += 4000;
+    if (plan->calculate & (1u << THEORY_CRITICAL | 1u << THEORY_EXPONENTS))
+        evaluations += 4000 * (double)(theory_slots(plan) > 1 ? theory_slots(plan) + 1 : 1);
     if (wants(plan, THEORY_CORRELATORS))
         evaluations += 3.5 * (double)plan->block * log2(plan->last_time / 1e-8);
     if (wants(plan, THEORY_FLOW_CURVE))
@@ -278,5 +351,5 @@ double theory_seconds(const TheoryPlan *plan) {
 }
 
 const char *theory_structure_name(const TheoryPlan *plan) {
-    return closure_names[plan->structure];
+    return plan->structure == CLOSURE_MEASURED ? plan->input.file : closure_names[plan->structure];
 }

@@ -116,6 +116,10 @@ Status put_number(Results *results, const char *name, const char *unit, const ch
     return results_put_scalar(results, STAGE, name, unit, about, 0, value);
 }
 
+Status put_slot(Results *results, const char *name, const char *about, size_t slot, double value) {
+    return results_put_scalar(results, STAGE, name, "", about, slot, value);
+}
+
 Status put_curve(Results *results, const char *name, const char *about, const char *unit_of_time,
                  const double *time, size_t count, const double *values) {
     ResultSeries shape = shape_of(name, "", about);

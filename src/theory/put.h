@@ -16,6 +16,8 @@ Status put_each(Results *results, const TheoryPlan *plan, const char *name, cons
                 const char *about, const double *values);
 Status put_number(Results *results, const char *name, const char *unit, const char *about,
                   double value);
+// One value of several that together say the error.
+Status put_slot(Results *results, const char *name, const char *about, size_t slot, double value);
 Status put_curve(Results *results, const char *name, const char *about, const char *unit_of_time,
                  const double *time, size_t count, const double *values);
 // Stresses against shear rates.

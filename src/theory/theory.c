@@ -10,6 +10,7 @@
 #include "mct/grid.h"
 #include "mct/sheared.h"
 #include "oz/oz.h"
+#include "theory/input.h"
 #include "theory/put.h"
 
 #include <math.h>
@@ -22,13 +23,23 @@ static const double MASTER_FIRST = 1e-5, MASTER_LAST = 1e3; // of t in units of 
 // Of the slope of ln dr^2 against ln t from 1, where diffusion is not reached.
 static const double NOT_DIFFUSIVE = 0.01;
 
+// What is known of the transition as numbers.
+enum { NUMBERS = 7 };
+typedef struct Numbers {
+    double value[NUMBERS];
+} Numbers;
+
 struct Theory {
     const TheoryPlan *plan;
     Mixture mixture;
+    Measurements *measurements; // of which `measured` is the fit; NULL: a closure
+    Measured *measured;
     Grid *grid;
     Oz *oz;
     const Structure *structure; // at the packing fraction of the plan; NULL before
     CriticalPoint *critical;    // NULL: not wanted
+    size_t groups, group;       // of replicas, to be left out: of how many which is next
+    Numbers whole;              // of all replicas
     Correlators *correlators;   // while they are being calculated
     Kept kept;
     Sheared *sheared;           // while it is calculated
@@ -65,56 +76,110 @@ static bool wants_critical(const Theory *theory) {
            theory->plan->separation != 0;
 }
 
-static Status put_exponents(const Theory *theory, Results *results) {
-    const CriticalPoint *point = theory->critical;
+static const struct {
+    const char *name, *about;
+    bool exponent;
+} number_rows[NUMBERS] = {
+    {"critical_packing_fraction", "Packing fraction of the glass transition.", false},
+    {"exponent_parameter", "Exponent parameter lambda.", true},
+    {"exponent_a", "Critical exponent a: G -> (t/t0)^-a.", true},
+    {"exponent_b", "Von Schweidler exponent b: G -> -B (t/t_sigma)^b.", true},
+    {"exponent_gamma", "Exponent gamma = 1/(2 a) + 1/(2 b) of the time of the final decay.", true},
+    {"von_schweidler_amplitude", "Amplitude B of G -> -B (t/t_sigma)^b.", true},
+    {"separation_slope", "C in sigma = C (phi - phi_c)/phi_c, the separation parameter.", true},
+};
+
+static Status numbers_of(const CriticalPoint *point, Numbers *numbers) {
+    const Exponents *e = &point->exponents;
     double amplitude;
-    TRY(beta_von_schweidler(point->exponents.lambda, &amplitude));
-    TRY(put_number(results, "exponent_parameter", "", "Exponent parameter lambda.",
-                   point->exponents.lambda));
-    TRY(put_number(results, "exponent_a", "", "Critical exponent a: G -> (t/t0)^-a.",
-                   point->exponents.a));
-    TRY(put_number(results, "exponent_b", "", "Von Schweidler exponent b: G -> -B (t/t_sigma)^b.",
-                   point->exponents.b));
-    TRY(put_number(results, "exponent_gamma", "",
-                   "Exponent gamma = 1/(2 a) + 1/(2 b) of the time of the final decay.",
-                   point->exponents.gamma));
-    TRY(put_number(results, "von_schweidler_amplitude", "", "Amplitude B of G -> -B (t/t_sigma)^b.",
-                   amplitude));
-    return put_number(results, "separation_slope", "",
-                      "C in sigma = C (phi - phi_c)/phi_c, the separation parameter.",
-                      point->slope);
+    TRY(beta_von_schweidler(e->lambda, &amplitude));
+    *numbers = (Numbers){
+        {point->packing_fraction, e->lambda, e->a, e->b, e->gamma, amplitude, point->slope}};
+    return OK;
+}
+
+static Status put_numbers(const Theory *theory, Results *results, const Numbers *numbers,
+                          size_t slot) {
+    for (size_t i = 0; i < NUMBERS; i++) {
+        if (number_rows[i].exponent && !wants(theory, THEORY_EXPONENTS)) continue;
+        TRY(put_slot(results, number_rows[i].name, number_rows[i].about, slot, numbers->value[i]));
+    }
+    return OK;
+}
+
+// Where the search begins and ends if the plan does not say: where the structure was measured, or
+// where closures have their transition.
+static double search_end(const Theory *theory, double given, bool low) {
+    const bool discs = theory->plan->dimension == 2;
+    if (given > 0) return given;
+    if (theory->measured)
+        return low ? measured_lowest(theory->measured) : measured_highest(theory->measured);
+    return low ? (discs ? 0.6 : 0.45) : discs ? 0.74 : 0.57;
+}
+
+static Status search_critical(const Theory *theory, const Measured *measured,
+                              CriticalPoint **point) {
+    const TheoryPlan *plan = theory->plan;
+    const CriticalSearch search = {
+        .mixture = theory->mixture,
+        .closure = (Closure)plan->structure,
+        .measured = measured,
+        .count = (size_t)plan->wave_numbers,
+        .last = plan->last_wave_number,
+        .low = search_end(theory, plan->search_low, true),
+        .high = search_end(theory, plan->search_high, false),
+    };
+    return critical_find(point, &search);
 }
 
 static Status find_critical(Theory *theory, Results *results) {
     const TheoryPlan *plan = theory->plan;
-    const bool discs = plan->dimension == 2;
-    const CriticalSearch search = {
-        .mixture = theory->mixture,
-        .closure = (Closure)plan->structure,
-        .count = (size_t)plan->wave_numbers,
-        .last = plan->last_wave_number,
-        .low = plan->search_low > 0 ? plan->search_low
-               : discs              ? 0.6
-                                    : 0.45,
-        .high = plan->search_high > 0 ? plan->search_high
-                : discs               ? 0.74
-                                      : 0.57,
-    };
-    TRY(critical_find(&theory->critical, &search));
+    TRY(search_critical(theory, theory->measured, &theory->critical));
     const CriticalPoint *point = theory->critical;
-    TRY(put_number(results, "critical_packing_fraction", "",
-                   "Packing fraction of the glass transition.", point->packing_fraction));
+    TRY(numbers_of(point, &theory->whole));
+    if (theory->groups < 2) TRY(put_numbers(theory, results, &theory->whole, 0));
     TRY(results_put_health(results, "transition_mismatch",
                            "relative difference of two ways to the curvature of phi(1 - E)", 0.02,
                            fabs(point->curvature / point->expected_curvature - 1)));
     TRY(put_pairs(results, plan, "critical_form_factors",
                   "Form factors F_ab(q) at the glass transition.", point->wave_number, point->count,
                   point->form));
-    TRY(put_pairs(results, plan, "critical_amplitude",
-                  "Critical amplitude H_ab(q): F_ab(q,t) = F_ab + H_ab G(t) near the plateau.",
-                  point->wave_number, point->count, point->amplitude));
-    return wants(theory, THEORY_EXPONENTS) ? put_exponents(theory, results) : OK;
+    return put_pairs(results, plan, "critical_amplitude",
+                     "Critical amplitude H_ab(q): F_ab(q,t) = F_ab + H_ab G(t) near the plateau.",
+                     point->wave_number, point->count, point->amplitude);
 }
+
+// ---- Errors of what was measured ----------------------------------------------------------------
+
+static bool wants_errors(const Theory *theory) {
+    return theory->groups > 1 && wants_critical(theory);
+}
+
+// The transition without one group of replicas, as a pseudo-value: their mean and standard error
+// are those of the jackknife (Efron & Tibshirani, An Introduction to the Bootstrap, ch. 11).
+static Status find_pseudo_values(Theory *theory, const Measured *measured, Results *results) {
+    const double groups = (double)theory->groups;
+    CriticalPoint *point = NULL;
+    Numbers numbers;
+    TRY(search_critical(theory, measured, &point));
+    const Status status = numbers_of(point, &numbers);
+    critical_free(point);
+    TRY(status);
+    for (size_t i = 0; i < NUMBERS; i++)
+        numbers.value[i] = groups * theory->whole.value[i] - (groups - 1) * numbers.value[i];
+    return put_numbers(theory, results, &numbers, theory->group);
+}
+
+static Status find_errors(Theory *theory, Results *results) {
+    Measured *measured = NULL;
+    TRY(measurements_fit(&measured, theory->measurements, theory->groups, theory->group));
+    const Status status = find_pseudo_values(theory, measured, results);
+    measured_free(measured);
+    theory->share = (double)++theory->group / (double)theory->groups;
+    return status;
+}
+
+// ---- A state -----------------------------------------------------------------------------------
 
 static Status solve_structure(Theory *theory, Results *results) {
     const TheoryPlan *plan = theory->plan;
@@ -123,6 +188,10 @@ static Status solve_structure(Theory *theory, Results *results) {
                                    : theory->critical->packing_fraction * (1 + plan->separation);
     TRY(oz_solve(theory->oz, packing_fraction, &theory->structure));
     const Structure *s = theory->structure;
+    if (theory->measured)
+        TRY(results_put_health(results, "structure_misfit",
+                               "mean square of (c - fit)/error of the measured structure", NAN,
+                               measured_misfit(theory->measured)));
     TRY(put_number(results, "packing_fraction", "", "Packing fraction of the state.",
                    packing_fraction));
     TRY(results_put_health(results, "structure_residual",
@@ -442,6 +511,7 @@ static const struct {
     bool slices;
 } steps[] = {
     {"critical point", wants_critical, find_critical, false},
+    {"errors", wants_errors, find_errors, true},
     {"structure", wants_state, solve_structure, false},
     {"form factors", wants_forms, find_forms, false},
     {"beta scaling", wants_beta, solve_beta, false},
@@ -455,12 +525,26 @@ static void skip_unwanted(Theory *theory) {
     while (theory->step < STEPS && !steps[theory->step].wanted(theory)) theory->step++;
 }
 
+// The mixture is then that of the files: fractions of so many particles.
+static Status read_structure(Theory *theory) {
+    const size_t slots = theory_slots(theory->plan);
+    TRY(theory_read_input(&theory->measurements, theory->plan));
+    const size_t replicas = measurements_replicas(theory->measurements);
+    theory->mixture = *measurements_mixture(theory->measurements);
+    theory->groups = slots < replicas ? slots : replicas;
+    return measurements_fit(&theory->measured, theory->measurements, 0, 0);
+}
+
 static Status prepare(Theory *theory) {
     const TheoryPlan *plan = theory->plan;
+    const bool measured = plan->structure == CLOSURE_MEASURED;
     TRY(grid_create(&theory->grid, (int)plan->dimension, (size_t)plan->wave_numbers,
                     plan->last_wave_number));
-    TRY(oz_create(&theory->oz, (Closure)plan->structure, &theory->mixture,
-                  theory->grid->wave_number, theory->grid->count));
+    if (measured) TRY(read_structure(theory));
+    const double *q = theory->grid->wave_number;
+    const size_t count = theory->grid->count;
+    TRY(measured ? oz_create_measured(&theory->oz, theory->measured, q, count)
+                 : oz_create(&theory->oz, (Closure)plan->structure, &theory->mixture, q, count));
     skip_unwanted(theory);
     return OK;
 }
@@ -485,6 +569,8 @@ void theory_free(Theory *theory) {
     end_flow(theory);
     critical_free(theory->critical);
     oz_free(theory->oz);
+    measured_free(theory->measured);
+    measurements_free(theory->measurements);
     grid_free(theory->grid);
     memory_free(theory);
 }

@@ -30,9 +30,17 @@ typedef enum TheoryPart {
     THEORY_PARTS
 } TheoryPart;
 
+// Where a measured structure comes from.
+typedef struct TheoryInput {
+    char file[OPTION_TEXT_SIZE];  // "": none
+    char stage[OPTION_TEXT_SIZE]; // "": the only one
+    int64_t groups;               // of replicas, left out in turn for errors; 1: no errors
+} TheoryInput;
+
 typedef struct TheoryPlan {
     int64_t dimension;
     int64_t structure;                   // a Closure
+    TheoryInput input;                   // of CLOSURE_MEASURED
     double packing_fraction, separation; // one of them: separation is phi/phi_c - 1
     int64_t wave_numbers;
     double last_wave_number;
@@ -51,8 +59,11 @@ typedef struct TheoryPlan {
 extern const OptionTable theory_options;
 extern const OptionTable theory_species_options;
 
-void theory_complete(TheoryPlan *plan);      // the fraction that one species may have left out
+void theory_complete(TheoryPlan *plan);      // what follows from other keys: a fraction left out
 Status theory_check(const TheoryPlan *plan); // BAD_DATA with a sentence
+// Likewise, whether files that are read are there and fit.
+Status theory_check_input(const TheoryPlan *plan);
+size_t theory_slots(const TheoryPlan *plan); // of the Results: more than one hold pseudo-values
 size_t theory_memory(const TheoryPlan *plan);
 double theory_seconds(const TheoryPlan *plan); // rough
 const char *theory_structure_name(const TheoryPlan *plan);

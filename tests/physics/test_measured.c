@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Measured structure factors as input of the theory: what a closure gives, sampled with the noise
+// of Gaussian densities, leads back to the transition of the closure; and files that lie about
+// themselves are refused.
+#include "mct/critical.h"
+#include "numerics/small.h"
+#include "oz/oz.h"
+#include "store/store.h"
+#include "theory/theory.h"
+
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+
+#include <check.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { SHELLS = 400, REPLICAS = 4, STATES = 3, PAIRS_MOST = 3 };
+static const double SPACING = 0.1;
+static const double DENSITIES[STATES] = {0.66, 0.69, 0.72};
+static const Mixture DISCS = {2, 1, {1}, {1}};
+static const Mixture BINARY = {2, 2, {1, 1.4}, {0.5, 0.5}};
+
+typedef struct Samples {
+    double wave_number[SHELLS];
+    double factor[STATES][REPLICAS * PAIRS_MOST * SHELLS]; // [replica][pair][shell]
+} Samples;
+
+// S of `modes` independent Gaussian densities whose covariance is s: Bartlett's decomposition of
+// Wishart's distribution.
+static void sample(const gsl_rng *rng, size_t species, SmallMatrix s, int modes, SmallMatrix out) {
+    const double l00 = sqrt(s[0][0]), l10 = species > 1 ? s[1][0] / l00 : 0;
+    const double l11 = species > 1 ? sqrt(s[1][1] - l10 * l10) : 0;
+    const double a00 = sqrt(gsl_ran_chisq(rng, modes) / modes);
+    const double a10 = gsl_ran_gaussian(rng, 1 / sqrt(modes));
+    const double a11 = sqrt(gsl_ran_chisq(rng, modes - 1) / modes);
+    const double b00 = l00 * a00, b10 = l10 * a00 + l11 * a10, b11 = l11 * a11;
+    memset(out, 0, sizeof(SmallMatrix));
+    out[0][0] = b00 * b00;
+    out[1][0] = out[0][1] = b10 * b00;
+    out[1][1] = b10 * b10 + b11 * b11;
+}
+
+// What a simulation of some ten thousand modes in each shell would see of this closure.
+static Samples *sampled(Closure closure, const Mixture *mixture, int modes_per_wave_number) {
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    Samples *samples = calloc(1, sizeof *samples);
+    const size_t species = mixture->species, pairs = mixture_pairs(mixture);
+    Oz *oz = NULL;
+    for (size_t m = 0; m < SHELLS; m++) samples->wave_number[m] = (double)(m + 1) * SPACING;
+    ck_assert_int_eq(oz_create(&oz, closure, mixture, samples->wave_number, SHELLS), OK);
+    for (size_t n = 0; n < STATES; n++) {
+        const Structure *s = NULL;
+        ck_assert_msg(oz_solve(oz, DENSITIES[n], &s) == OK, "%s", status_sentence());
+        for (size_t r = 0; r < REPLICAS; r++) {
+            for (size_t m = 0; m < SHELLS; m++) {
+                SmallMatrix exact = {{0}}, seen;
+                for (size_t a = 0; a < species; a++) {
+                    for (size_t b = 0; b < species; b++)
+                        exact[a][b] = s->factor[mixture_pair(species, a, b) * SHELLS + m];
+                }
+                const int modes = (int)(modes_per_wave_number * fmax(1, s->wave_number[m]));
+                sample(rng, species, exact, modes, seen);
+                for (size_t a = 0; a < species; a++) {
+                    for (size_t b = a; b < species; b++) {
+                        const size_t pair = mixture_pair(species, a, b);
+                        samples->factor[n][(r * pairs + pair) * SHELLS + m] = seen[a][b];
+                    }
+                }
+            }
+        }
+    }
+    oz_free(oz);
+    gsl_rng_free(rng);
+    return samples;
+}
+
+static Measured *fitted(const Samples *samples, const Mixture *mixture) {
+    Measured *measured = NULL;
+    ck_assert_int_eq(measured_create(&measured, mixture), OK);
+    for (size_t n = 0; n < STATES; n++) {
+        const MeasuredState state = {DENSITIES[n], REPLICAS, SHELLS, samples->wave_number,
+                                     samples->factor[n]};
+        ck_assert_msg(measured_add(measured, &state, 0, 0) == OK, "%s", status_sentence());
+    }
+    return measured;
+}
+
+// The transition of a closure from samples of its structure. Bounds: three times what differs from
+// seed to seed, 3e-4 in the packing fraction and 1e-3 in lambda, with these numbers of modes.
+static void recovers(Closure closure, const Mixture *mixture) {
+    Samples *samples = sampled(closure, mixture, 2000);
+    Measured *measured = fitted(samples, mixture);
+    CriticalPoint *exact = NULL, *found = NULL;
+    CriticalSearch search = {*mixture, closure, 203, 40, 0.66, 0.72, NULL};
+    ck_assert_int_eq(critical_find(&exact, &search), OK);
+    search.measured = measured;
+    ck_assert_msg(critical_find(&found, &search) == OK, "%s", status_sentence());
+    ck_assert_double_eq_tol(found->packing_fraction, exact->packing_fraction, 1e-3);
+    ck_assert_double_eq_tol(found->exponents.lambda, exact->exponents.lambda, 3e-3);
+    ck_assert_double_eq_tol(found->slope, exact->slope, 0.05 * exact->slope);
+    // No worse a fit than noise, and no better: 3 sets of some hundred coefficients of 1200.
+    ck_assert(measured_misfit(measured) > 0.7 && measured_misfit(measured) < 1.5);
+    critical_free(exact);
+    critical_free(found);
+    measured_free(measured);
+    free(samples);
+}
+
+START_TEST(samples_of_a_closure_freeze_where_it_does) {
+    recovers(CLOSURE_FUNDAMENTAL, &DISCS);
+    recovers(CLOSURE_MODIFIED_VERLET, &DISCS);
+}
+END_TEST
+
+START_TEST(samples_of_a_mixture_do_too) {
+    recovers(CLOSURE_MODIFIED_VERLET, &BINARY);
+}
+END_TEST
+
+// Beyond the last shell and below the first, and at contact, which no shell sees.
+START_TEST(what_was_not_measured_follows) {
+    static const double q[] = {0.02, 45, 52, 60};
+    Samples *samples = sampled(CLOSURE_MODIFIED_VERLET, &DISCS, 2000);
+    Measured *measured = fitted(samples, &DISCS);
+    Oz *fit = NULL, *exact = NULL;
+    const Structure *s = NULL, *e = NULL;
+    ck_assert_int_eq(oz_create_measured(&fit, measured, q, 4), OK);
+    ck_assert_int_eq(oz_create(&exact, CLOSURE_MODIFIED_VERLET, &DISCS, q, 4), OK);
+    ck_assert_int_eq(oz_solve(fit, 0.69, &s), OK);
+    ck_assert_int_eq(oz_solve(exact, 0.69, &e), OK);
+    ck_assert_double_eq_tol(s->factor[0], e->factor[0], 0.02 * e->factor[0]);
+    for (size_t m = 1; m < 4; m++) ck_assert_double_eq_tol(s->factor[m], e->factor[m], 0.01);
+    ck_assert_double_eq_tol(s->contact[0], e->contact[0], 0.05 * e->contact[0]);
+    ck_assert_int_eq(oz_solve(fit, 0.5, &s), UNHEALTHY);
+    ck_assert_msg(strstr(status_sentence(), "far from where"), "%s", status_sentence());
+    oz_free(fit);
+    oz_free(exact);
+    measured_free(measured);
+    free(samples);
+}
+END_TEST
+
+START_TEST(what_cannot_be_is_refused) {
+    Samples *samples = sampled(CLOSURE_FUNDAMENTAL, &DISCS, 200);
+    Measured *measured = NULL;
+    ck_assert_int_eq(measured_create(&measured, &DISCS), OK);
+    MeasuredState state = {0.66, REPLICAS, SHELLS, samples->wave_number, samples->factor[0]};
+    state.count = 20;
+    ck_assert_int_eq(measured_add(measured, &state, 0, 0), BAD_DATA); // ends too early
+    state.count = SHELLS;
+    for (size_t r = 0; r < REPLICAS; r++) samples->factor[0][r * SHELLS + 7] = -0.1;
+    ck_assert_int_eq(measured_add(measured, &state, 0, 0), BAD_DATA);
+    ck_assert_msg(strstr(status_sentence(), "not positive at q = 0.8"), "%s", status_sentence());
+    state.factor = samples->factor[1];
+    ck_assert_int_eq(measured_add(measured, &state, 0, 0), OK);
+    ck_assert_int_eq(measured_add(measured, &state, 0, 0), BAD_DATA); // twice
+    measured_free(measured);
+    free(samples);
+}
+END_TEST
+
+// ---- Files --------------------------------------------------------------------------------------
+
+// As a run at rest writes it.
+static void write_run(const Samples *samples, size_t state, const char *diameters,
+                      const char *directory) {
+    static const char *const pairs[] = {"disc-disc", "total"};
+    char mixture[256];
+    double values[2 * SHELLS];
+    Results *results = NULL;
+    Store *store = NULL;
+    ResultSeries shape = {.stage = "fluid", .observable = "structure_factor", .axes = 2};
+    shape.axis[0] = (ResultAxis){"pair", "", 2, NULL, pairs};
+    shape.axis[1] = (ResultAxis){"wave_number", "1/d", SHELLS, samples->wave_number, NULL};
+    ck_assert_int_eq(results_create(&results, REPLICAS), OK);
+    for (size_t r = 0; r < REPLICAS; r++) {
+        memcpy(values, samples->factor[state] + r * SHELLS, SHELLS * sizeof *values);
+        memcpy(values + SHELLS, values, SHELLS * sizeof *values);
+        ck_assert_int_eq(results_put_series(results, &shape, r, values), OK);
+    }
+    snprintf(mixture, sizeof mixture, "dimension=2 packing_fraction=%.17g diameters=%s fractions=1",
+             DENSITIES[state], diameters);
+    ck_assert_int_eq(results_put_fact(results, "mixture", mixture), OK);
+    ck_assert_msg(store_open(&store, directory) == OK, "%s", status_sentence());
+    ck_assert_int_eq(store_write_results(store, results), OK);
+    store_close(store);
+    results_free(results);
+}
+
+static TheoryPlan plan_from(const char *path) {
+    TheoryPlan plan = {.dimension = 2,
+                       .input = {.groups = REPLICAS},
+                       .wave_numbers = 120,
+                       .last_wave_number = 40,
+                       .calculate = 1u << THEORY_EXPONENTS,
+                       .block = 64,
+                       .species_count = 1};
+    plan.species[0] = (TheorySpecies){"disc", 1, 1, 1};
+    snprintf(plan.input.file, sizeof plan.input.file, "%s", path);
+    theory_complete(&plan);
+    return plan;
+}
+
+START_TEST(a_folder_of_runs_gives_the_transition_with_its_error) {
+    static const char folder[] = "measured_runs";
+    Samples *samples = sampled(CLOSURE_FUNDAMENTAL, &DISCS, 500);
+    char path[64];
+    Theory *theory = NULL;
+    Results *results = NULL;
+    ck_assert_int_eq(system("rm -rf measured_runs && mkdir measured_runs"), 0);
+    for (size_t n = 0; n < STATES; n++) {
+        snprintf(path, sizeof path, "%s/%zu", folder, n);
+        write_run(samples, n, "1", path);
+    }
+    const TheoryPlan plan = plan_from(folder);
+    ck_assert_msg(theory_check_input(&plan) == OK, "%s", status_sentence());
+    ck_assert_int_eq(results_create(&results, theory_slots(&plan)), OK);
+    ck_assert_int_eq(theory_create(&theory, &plan), OK);
+    while (!theory_finished(theory))
+        ck_assert_msg(theory_advance(theory, results) == OK, "%s", status_sentence());
+    const Estimate found = results_scalar_estimate(
+        results, results_find_scalar(results, "theory", "critical_packing_fraction"));
+    ck_assert_uint_eq(found.n, REPLICAS);
+    ck_assert(found.error > 5e-5 && found.error < 2e-3);
+    ck_assert_double_eq_tol(found.value, 0.69064, 4 * found.error);
+    // One packing fraction is not enough, another mixture is another, and there must be something.
+    TheoryPlan other = plan_from("measured_runs/0");
+    ck_assert_int_eq(theory_check_input(&other), BAD_DATA);
+    other = plan;
+    other.species[0].diameter = 1.1;
+    ck_assert_int_eq(theory_check_input(&other), BAD_DATA);
+    other = plan_from("measured_nowhere");
+    ck_assert_int_eq(theory_check_input(&other), BAD_DATA);
+    snprintf(other.input.file, sizeof other.input.file, "%s", folder);
+    snprintf(other.input.stage, sizeof other.input.stage, "flow");
+    ck_assert_int_eq(theory_check_input(&other), BAD_DATA);
+    ck_assert_msg(strstr(status_sentence(), "stage flow"), "%s", status_sentence());
+    theory_free(theory);
+    results_free(results);
+    free(samples);
+}
+END_TEST
+
+int main(void) {
+    Suite *suite = suite_create("measured");
+    TCase *tests = tcase_create("structure");
+    tcase_set_timeout(tests, 300);
+    tcase_add_test(tests, samples_of_a_closure_freeze_where_it_does);
+    tcase_add_test(tests, samples_of_a_mixture_do_too);
+    tcase_add_test(tests, what_was_not_measured_follows);
+    tcase_add_test(tests, what_cannot_be_is_refused);
+    tcase_add_test(tests, a_folder_of_runs_gives_the_transition_with_its_error);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed > 0;
+}
