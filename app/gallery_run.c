@@ -30,11 +30,12 @@ static Status split_settings(char *text, const char **settings, size_t *count) {
     return OK;
 }
 
-static Status run_plan(const GalleryRun *run, const char *point, char *settings_text) {
+static Status run_plan(const GalleryRun *run, const char *run_file, const char *point,
+                       char *settings_text) {
     char file[GALLERY_PATH], directory[GALLERY_PATH];
     const char *settings[GIVEN_MOST];
     ConfigOverrides overrides = {.settings = settings};
-    TRY(gallery_path(file, run->entry, "run.yaml"));
+    TRY(gallery_path(file, run->entry, run_file));
     TRY(gallery_path(directory, run->directory, point));
     TRY(split_settings(settings_text, settings, &overrides.count));
     ConfigPoints *points = NULL;
@@ -45,17 +46,31 @@ static Status run_plan(const GalleryRun *run, const char *point, char *settings_
     return status;
 }
 
-// The settings of the full run come last, so that they win.
+// The settings of a point; {results} in them is the folder with the points before it.
+static void add_settings(const GalleryRun *run, const char *settings, Text *text) {
+    static const char MARK[] = "{results}";
+    for (const char *mark; (mark = strstr(settings, MARK)); settings = mark + strlen(MARK)) {
+        text_bytes(text, settings, (size_t)(mark - settings));
+        text_put(text, run->directory);
+    }
+    text_add(text, "%s\n", settings);
+}
+
+// The settings of the full run, which are for run.yaml, come last, so that they win.
 static Status run_point(const GalleryRun *run, const Csv *points, size_t row) {
+    const char *other = csv_cell(points, row, "run_file");
     char path[GALLERY_PATH];
     char *full = NULL;
     TRY(gallery_path(path, run->entry, "full.txt"));
-    if (run->full) TRY(csv_read_text(path, &full));
+    if (run->full && other[0] == '\0') TRY(csv_read_text(path, &full));
     Text settings = {0};
-    text_add(&settings, "%s\n%s\n", csv_cell(points, row, "settings"), full ? full : "");
+    add_settings(run, csv_cell(points, row, "settings"), &settings);
+    text_add(&settings, "%s\n", full ? full : "");
     memory_free(full);
     Status status = text_status(&settings);
-    if (status == OK) status = run_plan(run, csv_cell(points, row, "point"), settings.bytes);
+    if (status == OK)
+        status = run_plan(run, other[0] ? other : "run.yaml", csv_cell(points, row, "point"),
+                          settings.bytes);
     text_free(&settings);
     return status;
 }

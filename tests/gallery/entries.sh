@@ -10,14 +10,19 @@ for entry in "$gallery"/*/; do
         [ -s "$entry$file" ] || { echo "$entry$file is missing"; failed=1; }
     done
     full=$(grep -v '^#' "$entry/full.txt" | tr '\n' ' ')
-    points=$(grep -v -e '^#' -e '^point,' "$entry/points.csv" | cut -d, -f4 | sed 's/^$/-/' | tr ' ' ',')
-    for settings in $points; do
+    points=$(grep -v -e '^#' -e '^point,' "$entry/points.csv" | cut -d, -f4,5 |
+        sed -e 's/ /;/g' -e 's/^$/-/' -e 's/^,/-,/')
+    for point in $points; do
+        settings=$(echo "${point%%,*}" | tr ';' ',')
+        # A run file of its own reads what points before it give, which is not there.
+        case $point in *,?*) file=${point#*,} all=--all ;; *) file=run.yaml all= ;; esac
         for more in "" "$full"; do
+            [ "$file" = run.yaml ] || more=
             set --
             for setting in $(echo "$settings" | tr ',' ' ') $more; do
                 [ "$setting" = - ] || set -- "$@" --set "$setting"
             done
-            "$perrin" check "$entry/run.yaml" "$@" >/dev/null || { echo "in $entry: $*"; failed=1; }
+            "$perrin" check $all "$entry/$file" "$@" >/dev/null || { echo "in $entry: $*"; failed=1; }
         done
     done
 done
