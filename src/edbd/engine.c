@@ -18,25 +18,40 @@ static const double BOX_DIAMETERS = 2.2; // shortest edge, in largest diameters
 static const double FLIGHT_MOST = 0.05;  // thermal flight in a window, in d
 static const int64_t PARTICLES_MOST = 1 << 28;
 
-static Status allocate(Engine *engine) {
-    const size_t count = engine->count, slots = count + 1;
-    TRY(NEW_ARRAY(engine->rows, slots * engine->row));
-    TRY(NEW_ARRAY(engine->spare_rows, slots * engine->row));
+static Status allocate_motion(Motion *motion, int dimension, size_t slots) {
+    for (int a = 0; a < dimension; a++) {
+        TRY(NEW_ARRAY(motion->place[a], slots));
+        TRY(NEW_ARRAY(motion->velocity[a], slots));
+    }
+    return OK;
+}
+
+static Status allocate_slots(Engine *engine) {
+    const size_t slots = engine->slots;
+    TRY(allocate_motion(&engine->now, engine->dimension, slots));
+    TRY(allocate_motion(&engine->spare, engine->dimension, slots));
     TRY(NEW_ARRAY(engine->sketch, slots * engine->row));
-    TRY(NEW_ARRAY(engine->id, slots + BLOCK));
-    TRY(NEW_ARRAY(engine->spare_id, slots + BLOCK));
-    TRY(NEW_ARRAY(engine->radius, slots + BLOCK));
+    TRY(NEW_ARRAY(engine->id, slots));
+    TRY(NEW_ARRAY(engine->spare_id, slots));
+    TRY(NEW_ARRAY(engine->radius, slots));
     TRY(NEW_ARRAY(engine->mass, slots));
-    TRY(NEW_ARRAY(engine->thermal, slots + BLOCK));
-    TRY(NEW_ARRAY(engine->thermal_of, count));
+    TRY(NEW_ARRAY(engine->thermal, slots));
     TRY(NEW_ARRAY(engine->stamp, slots));
-    TRY(NEW_ARRAY(engine->normals, (count + RNG_ROOM) * engine->row / 2));
     for (int a = 0; a < engine->dimension; a++) {
-        TRY(NEW_ARRAY(engine->snapshot.image[a], count));
+        TRY(NEW_ARRAY(engine->normals[a], slots));
+        TRY(NEW_ARRAY(engine->snapshot.image[a], engine->count));
     }
     for (int a = 0; a <= engine->dimension; a++) {
         TRY(NEW_ARRAY(engine->column[a], slots + BLOCK));
     }
+    return OK;
+}
+
+static Status allocate(Engine *engine) {
+    const size_t count = engine->count;
+    engine->slots = (count / BLOCK + 1) * BLOCK;
+    TRY(allocate_slots(engine));
+    TRY(NEW_ARRAY(engine->thermal_of, count));
     for (engine->buckets = 64; engine->buckets < count / 4;) engine->buckets *= 2;
     engine->buckets_per_time = engine->buckets / engine->settings.window;
     engine->half_per_window = 0.5 / engine->settings.window;
@@ -57,11 +72,10 @@ static const EngineKernel *kernel_of(int dimension) {
 static void take_in(Engine *engine) {
     const State *state = engine->state;
     for (size_t i = 0; i < engine->count; i++) {
-        double *row = engine->rows + engine->row * i;
         engine->id[i] = (uint32_t)i;
         for (int a = 0; a < engine->dimension; a++) {
-            row[a] = state->position[a][i];
-            row[engine->row / 2 + (size_t)a] = state->velocity[a][i];
+            engine->now.place[a][i] = state->position[a][i];
+            engine->now.velocity[a][i] = state->velocity[a][i];
         }
         engine->largest = fmax(engine->largest, state->diameter[i]);
         engine->thermal_of[i] = 1 / sqrt(state->mass[i]);
@@ -116,12 +130,11 @@ static Status give_out(Engine *engine) {
     State *state = engine->state;
     double sum = 0;
     for (size_t slot = 0; slot < engine->count; slot++) {
-        const double *row = engine->rows + engine->row * slot;
         const uint32_t id = engine->id[slot];
         for (int a = 0; a < engine->dimension; a++) {
-            state->position[a][id] = row[a];
-            state->velocity[a][id] = row[engine->row / 2 + (size_t)a];
-            sum += row[a] + row[engine->row / 2 + (size_t)a];
+            state->position[a][id] = engine->now.place[a][slot];
+            state->velocity[a][id] = engine->now.velocity[a][slot];
+            sum += state->position[a][id] + state->velocity[a][id];
         }
     }
     if (isfinite(sum)) return OK;
@@ -158,10 +171,17 @@ Status engine_create(Engine **out, const EngineSettings *settings, State *state,
     return OK;
 }
 
+static void free_motion(Motion *motion) {
+    for (int a = 0; a < 3; a++) {
+        memory_free(motion->place[a]);
+        memory_free(motion->velocity[a]);
+    }
+}
+
 void engine_free(Engine *engine) {
     if (!engine) return;
-    memory_free(engine->rows);
-    memory_free(engine->spare_rows);
+    free_motion(&engine->now);
+    free_motion(&engine->spare);
     memory_free(engine->sketch);
     memory_free(engine->id);
     memory_free(engine->spare_id);
@@ -170,9 +190,11 @@ void engine_free(Engine *engine) {
     memory_free(engine->thermal);
     memory_free(engine->thermal_of);
     memory_free(engine->stamp);
-    memory_free(engine->normals);
     for (int a = 0; a < 4; a++) memory_free(engine->column[a]);
-    for (int a = 0; a < 3; a++) memory_free(engine->snapshot.image[a]);
+    for (int a = 0; a < 3; a++) {
+        memory_free(engine->normals[a]);
+        memory_free(engine->snapshot.image[a]);
+    }
     memory_free(engine->bucket);
     memory_free(engine->events);
     list_free(engine);
@@ -213,8 +235,15 @@ void engine_record(Engine *engine, CollisionLog *log) {
 // Normal numbers for the velocities of the window that is opened next, if that begins a step.
 static void draw(Engine *engine, int64_t step) {
     engine->redraw = 1;
-    rng_normal_rows(engine->key, engine->settings.stream, (uint64_t)step, engine->id, engine->count,
-                    engine->dimension, engine->normals);
+    rng_normals_single(engine->key, engine->settings.stream, (uint64_t)step, engine->id,
+                       engine->count, engine->dimension, engine->normals);
+}
+
+static void copy_motion(const Engine *engine, const Motion *to, const Motion *from) {
+    for (int a = 0; a < engine->dimension; a++) {
+        memcpy(to->place[a], from->place[a], engine->count * sizeof(double));
+        memcpy(to->velocity[a], from->velocity[a], engine->count * sizeof(double));
+    }
 }
 
 static bool is_pulled_in(const Engine *engine, int64_t step) {
@@ -228,14 +257,13 @@ static void pull_tracer(Engine *engine, int64_t step) {
     if (!is_pulled_in(engine, step)) return;
     if (engine->id[engine->pulled] != pull->particle)
         for (engine->pulled = 0; engine->id[engine->pulled] != pull->particle;) engine->pulled++;
-    engine->rows[engine->row * engine->pulled + engine->row / 2 + (size_t)pull->axis] +=
-        pull->drift;
+    engine->now.velocity[pull->axis][engine->pulled] += pull->drift;
     engine->kernel->sketch(engine, (uint32_t)engine->pulled);
 }
 
 static void snapshot_take(Engine *engine) {
     Snapshot *snapshot = &engine->snapshot;
-    memcpy(engine->spare_rows, engine->rows, engine->count * engine->row * sizeof(double));
+    copy_motion(engine, &engine->spare, &engine->now);
     for (int a = 0; a < engine->dimension; a++) {
         memcpy(snapshot->image[a], engine->state->image[a], engine->count * sizeof(int32_t));
     }
@@ -254,7 +282,7 @@ static void snapshot_restore(Engine *engine) {
     const Snapshot *snapshot = &engine->snapshot;
     const Tally *tally = &engine->tally;
     const uint64_t rebuilds = tally->rebuilds, replays = tally->replays, stale = tally->stale;
-    memcpy(engine->rows, engine->spare_rows, engine->count * engine->row * sizeof(double));
+    copy_motion(engine, &engine->now, &engine->spare);
     for (int a = 0; a < engine->dimension; a++) {
         memcpy(engine->state->image[a], snapshot->image[a], engine->count * sizeof(int32_t));
     }
@@ -428,11 +456,11 @@ size_t engine_memory(const System *system) {
     // Typical of dense fluids: pairs in the half list, neighbours padded to whole blocks.
     static const double pairs[2] = {3.5, 6.5}, neighbours[2] = {8, 16};
     const int three = system->dimension == 3;
-    const double rows = (three ? ROW_3D : ROW_2D) * (2 * sizeof(double) + 1.5 * sizeof(float));
-    const double arrays = (2 * ANCHOR + 4 + (double)system->dimension) * sizeof(double) +
-                          (7 + (double)system->dimension) * sizeof(uint32_t) + sizeof(Event);
+    const double axes = 6 * sizeof(double) + 3 * sizeof(uint32_t); // of each
+    const double arrays = (double)system->dimension * axes + 4 * sizeof(double) +
+                          ((three ? ROW_3D : ROW_2D) + 9) * sizeof(uint32_t) + sizeof(Event);
     const double lists = pairs[three] * (6 * sizeof(uint32_t) + 2 * sizeof(float)) +
                          neighbours[three] * (sizeof(uint32_t) + sizeof(float));
     const double spare = 1.125; // room that lists grow by
-    return (size_t)((double)system->particles * (rows + arrays + spare * lists)) + sizeof(Engine);
+    return (size_t)((double)system->particles * (arrays + spare * lists)) + sizeof(Engine);
 }

@@ -9,10 +9,9 @@
 #include "edbd/edbd.h"
 
 enum {
-    ROW_2D = 4,     // x y vx vy
-    ROW_3D = 8,     // x y z 0 vx vy vz 0
-    ANCHOR = 4,     // x y z 0
-    BLOCK = 16,     // the half list is padded to a multiple of this,
+    ROW_2D = 4,     // of the sketch: x y, now and then
+    ROW_3D = 8,     // x y z 0, likewise
+    BLOCK = 16,     // slots and the half list are padded to a multiple of this,
     HALF_BLOCK = 8, // the neighbours of each particle to one of this
 };
 static const uint32_t NO_EVENT = UINT32_MAX;
@@ -41,12 +40,12 @@ typedef struct NeighbourList {
     double spent;              // largest displacement between making and pruning, in d, flow apart
     double farthest2;          // square of the largest distance from an anchor since it was pruned
     int64_t age;               // windows since it was made
-    double *anchor;            // [slots][ANCHOR]: where each was when it was pruned,
-    double *origin;            // [slots][ANCHOR]: and when it was made
+    double *anchor[3];         // [slots] where each was when it was pruned,
+    double *origin[3];         // [slots] and when it was made
 
     size_t pairs; // padded to whole blocks with a pair that never meets
     size_t pair_capacity;
-    uint32_t *first, *second;         // [pairs] where their rows begin, in the order of `first`
+    uint32_t *first, *second;         // [pairs] where their sketches begin, in the order of `first`
     uint32_t *pair_start;             // [slots + 1] first pair of each
     float *pair_contact2;             // [pairs] square of the contact distance at scale 1
     uint32_t *hit_first, *hit_second; // [pairs] room for those that may meet in a window
@@ -60,9 +59,14 @@ typedef struct NeighbourList {
 
     uint32_t *start; // [slots + 1], multiples of HALF_BLOCK; the one after the last is of nobodies
     size_t neighbour_capacity;
-    uint32_t *neighbour; // [start[slots]] where their rows begin
+    uint32_t *neighbour; // [start[slots]] where their sketches begin
     float *contact2;     // [start[slots]]
 } NeighbourList;
+
+// Of the particles, one array for each axis.
+typedef struct Motion {
+    double *place[3], *velocity[3]; // [slots]
+} Motion;
 
 // What a window must not pass over: the state at the last moment known to be right.
 typedef struct Snapshot {
@@ -89,8 +93,9 @@ struct Engine {
     const EngineKernel *kernel;
 
     int dimension;
-    size_t row;   // ROW_2D or ROW_3D
-    size_t count; // of particles; slot `count` holds one that nothing meets
+    size_t row;   // of the sketch: ROW_2D or ROW_3D
+    size_t count; // of particles; the slots from `count` on hold nobody, at rest in the origin
+    size_t slots; // a multiple of BLOCK above `count`
     double edge[3];
     double scale, growth;  // of the diameters: now, and its rate
     int sheared;           // images across y are displaced, or moving
@@ -104,19 +109,19 @@ struct Engine {
     size_t pulled;        // slot, unless the order has changed since
     int64_t window, left; // windows done in this step; still to do in this call
 
-    double *rows;       // [count + 1][row]
-    float *sketch;      // [count + 1][row] (edbd/sketch.h)
+    Motion now;         // virtual origins and velocities
+    Motion spare;       // those of the snapshot, and where a new order is made
+    float *sketch;      // [slots][row] (edbd/sketch.h)
     double place_error; // most that a distance errs between places in single precision,
     float sketch_error; // and the product of two distances
-    double *spare_rows; // the same: those of the snapshot, and where a new order is made
-    uint32_t *id;       // [count] of each slot
+    uint32_t *id;       // [slots] of each
     uint32_t *spare_id;
-    double *radius;     // [count]
-    double *mass;       // [count]
-    float *normals;     // [count + RNG_ROOM][2 or 4] of each, in rows
-    float *column[4];   // [count + BLOCK] scratch while listing: places and radii
-    double *thermal;    // [count] 1/sqrt(mass)
-    uint32_t *stamp;    // [count + 1] collisions of each in this window
+    double *radius;     // [slots]
+    double *mass;       // [slots]
+    float *normals[3];  // [slots]
+    float *column[4];   // [slots + BLOCK] scratch while listing: places and radii
+    double *thermal;    // [slots] 1/sqrt(mass)
+    uint32_t *stamp;    // [slots] collisions of each in this window
     double *thermal_of; // [count] the same, by id
     double largest;     // diameter
     double fastest;     // thermal velocity, and that of the flow across a diameter
@@ -128,7 +133,7 @@ struct Engine {
     size_t cells_most;
 
     Event *events; // [event_capacity]
-    uint32_t event_capacity, events_used, free_event;
+    uint32_t event_capacity, events_used;
     uint32_t *bucket;                         // [buckets] first event of each slice of the window
     uint32_t buckets;                         // a power of two
     double buckets_per_time, half_per_window; // 1/(2 window)

@@ -33,12 +33,12 @@ KERNEL double nearest(double r, double edge) {
 // From one particle to the nearest image of another: of their virtual origins, and of velocities.
 // Of images across the edges of y, those of a sheared box move (Weysser, thesis, eqs. 2.12 to 2.14,
 // with the whole strain in place of that since the last step).
-KERNEL void separate(const int dimension, const int flight, const Engine *engine, const double *i,
-                     const double *j, double r[3], double v[3]) {
-    const size_t velocity = (dimension == 2 ? ROW_2D : ROW_3D) / 2;
-    for (size_t a = 0; a < (size_t)dimension; a++) {
-        r[a] = i[a] - j[a];
-        v[a] = i[velocity + a] - j[velocity + a];
+KERNEL void separate(const int dimension, const int flight, const Engine *engine, uint32_t i,
+                     uint32_t j, double r[3], double v[3]) {
+    const Motion *now = &engine->now;
+    for (int a = 0; a < dimension; a++) {
+        r[a] = now->place[a][i] - now->place[a][j];
+        v[a] = now->velocity[a][i] - now->velocity[a][j];
     }
     if (flight == SHEARED) {
         const double half = engine->edge[1] / 2;
@@ -53,9 +53,8 @@ KERNEL void separate(const int dimension, const int flight, const Engine *engine
 // From time s on.
 KERNEL Gap gap_of(const int dimension, const int flight, const Engine *engine, uint32_t i,
                   uint32_t j, double s, Growth growth) {
-    const size_t row = dimension == 2 ? ROW_2D : ROW_3D;
     double r[3], v[3], r2 = 0, rv = 0, v2 = 0;
-    separate(dimension, flight, engine, engine->rows + row * i, engine->rows + row * j, r, v);
+    separate(dimension, flight, engine, i, j, r, v);
     for (int a = 0; a < dimension; a++) {
         const double x = r[a] + v[a] * s;
         r2 = a == 0 ? x * x : r2 + x * x;
@@ -96,15 +95,11 @@ KERNEL uint32_t *bucket_of(Engine *engine, double time) {
 }
 
 KERNEL void event_put(Engine *engine, double time, uint32_t first, uint32_t second) {
-    uint32_t number = engine->free_event;
-    if (number != NO_EVENT) {
-        engine->free_event = engine->events[number].next;
-    } else if (engine->events_used < engine->event_capacity) {
-        number = engine->events_used++;
-    } else {
+    if (engine->events_used == engine->event_capacity) {
         engine->outgrown = 1;
         return;
     }
+    const uint32_t number = engine->events_used++;
     uint32_t *bucket = bucket_of(engine, time);
     engine->events[number] = (Event){.time = time,
                                      .first = first,
@@ -115,10 +110,7 @@ KERNEL void event_put(Engine *engine, double time, uint32_t first, uint32_t seco
 }
 
 KERNEL void event_drop(Engine *engine, uint32_t *link) {
-    const uint32_t number = *link;
-    *link = engine->events[number].next;
-    engine->events[number].next = engine->free_event;
-    engine->free_event = number;
+    *link = engine->events[*link].next;
 }
 
 // A pair becomes an event if it meets between time s and the end of the window.
@@ -183,10 +175,9 @@ KERNEL void predict_both(const int dimension, const int flight, Engine *engine,
 // at time t.
 KERNEL void watch(const int dimension, const int flight, Engine *engine, uint32_t slot,
                   const double place[3], double t) {
-    const double *anchor = engine->list.anchor + (size_t)ANCHOR * slot;
     double d2 = 0;
     for (int a = 0; a < dimension; a++) {
-        double d = place[a] - anchor[a];
+        double d = place[a] - engine->list.anchor[a][slot];
         if (flight == SHEARED && a == 0) d -= (engine->list.strain + engine->rate * t) * place[1];
         d2 += d * d;
     }
@@ -213,29 +204,17 @@ KERNEL void count_overlap(Engine *engine, double r2, double contact2) {
     if (depth > engine->tally.deepest_contact) engine->tally.deepest_contact = depth;
 }
 
-// A particle changes its velocity by `change` at time t, and its virtual origin to match. One store
-// per row: the loads of whole rows that follow would wait for smaller ones.
-KERNEL void kick(const int dimension, const Engine *engine, size_t at, const double change[3],
+// A particle changes its velocity by `change` at time t, and its virtual origin to match.
+KERNEL void kick(const int dimension, const Engine *engine, uint32_t slot, const double change[3],
                  double t) {
-    double *row = engine->rows + at;
-    if (dimension == 2) {
-        const Quad both = {change[0], change[1], change[0], change[1]};
-        const Quad kicked = *(const Quad *)row + both * (Quad){-t, -t, 1, 1};
-        *(Quad *)row = kicked;
-        sketch_2d(engine, (Pair)__builtin_shufflevector(kicked, kicked, 0, 1),
-                  (Pair)__builtin_shufflevector(kicked, kicked, 2, 3), engine->sketch + at);
-        return;
+    double place[3], velocity[3];
+    for (int a = 0; a < dimension; a++) {
+        place[a] = engine->now.place[a][slot] - change[a] * t;
+        velocity[a] = engine->now.velocity[a][slot] + change[a];
+        engine->now.place[a][slot] = place[a];
+        engine->now.velocity[a][slot] = velocity[a];
     }
-    const Quad velocity = {change[0], change[1], change[2], 0};
-    const Quad low = *(const Quad *)row + velocity * (Quad){-t, -t, -t, -t};
-    const Quad high = *(const Quad *)(row + 4) + velocity;
-#if LANES == 8
-    lanes_store(row, __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7));
-#else
-    *(Quad *)row = low;
-    *(Quad *)(row + 4) = high;
-#endif
-    sketch_3d(engine, &low, &high, engine->sketch + at);
+    sketch_one(dimension, engine, slot, place, velocity);
 }
 
 // Sums of r_a r_c over collisions, weighted by momentum: xx xy yy in 2D; xx xy xz yy, yz zz in 3D.
@@ -275,18 +254,17 @@ KERNEL void exchange_close(const int dimension, const Exchange *sums, Tally *tal
 // -2 m_i m_j/(m_i + m_j) b r/r^2 goes to i, its mirror image to j; r = r_i - r_j, b = r.v.
 KERNEL void collide(const int dimension, const int flight, Engine *engine, const Event *event,
                     Growth growth, Exchange *sums) {
-    const size_t row = dimension == 2 ? ROW_2D : ROW_3D, velocity = row / 2;
+    const Motion *now = &engine->now;
     const uint32_t slot_i = event->first, slot_j = event->second;
-    double *i = engine->rows + row * slot_i, *j = engine->rows + row * slot_j;
     const double t = event->time;
     double r[3], v[3], place_i[3], place_j[3], r2 = 0, b = 0;
-    separate(dimension, flight, engine, i, j, r, v);
+    separate(dimension, flight, engine, slot_i, slot_j, r, v);
     for (int a = 0; a < dimension; a++) {
         r[a] += v[a] * t;
         r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
         b = a == 0 ? r[a] * v[a] : b + r[a] * v[a];
-        place_i[a] = i[a] + i[velocity + (size_t)a] * t;
-        place_j[a] = j[a] + j[velocity + (size_t)a] * t;
+        place_i[a] = now->place[a][slot_i] + now->velocity[a][slot_i] * t;
+        place_j[a] = now->place[a][slot_j] + now->velocity[a][slot_j] * t;
     }
     const double scale = flight == GROWING ? growth.scale + growth.rate * t : 1;
     const double contact = (engine->radius[slot_i] + engine->radius[slot_j]) * scale;
@@ -304,8 +282,8 @@ KERNEL void collide(const int dimension, const int flight, Engine *engine, const
         change_j[a] = k_j * r[a];
     }
     exchange_add(dimension, sums, r, momentum);
-    kick(dimension, engine, row * slot_i, change_i, t);
-    kick(dimension, engine, row * slot_j, change_j, t);
+    kick(dimension, engine, slot_i, change_i, t);
+    kick(dimension, engine, slot_j, change_j, t);
     engine->tally.collisions++;
     if (engine->log) record(engine, event);
     const uint32_t stamp_i = ++engine->stamp[slot_i], stamp_j = ++engine->stamp[slot_j];
@@ -360,165 +338,110 @@ KERNEL void carry_out(const int dimension, const int flight, Engine *engine, Gro
 }
 
 // Back into [0, edge); the anchor goes along, for the distance to it must not jump.
-KERNEL void fold_axis(Engine *engine, double *row, uint32_t slot, int axis) {
+KERNEL void fold_axis(const Engine *engine, uint32_t slot, int axis) {
     const double edge = engine->edge[axis];
-    double *anchor = engine->list.anchor + (size_t)ANCHOR * slot;
+    double *place = engine->now.place[axis] + slot, *anchor = engine->list.anchor[axis] + slot;
     int32_t *image = &engine->state->image[axis][engine->id[slot]];
-    if (row[axis] < 0) {
-        row[axis] += edge;
-        anchor[axis] += edge;
+    if (*place < 0) {
+        *place += edge;
+        *anchor += edge;
         --*image;
     }
-    if (row[axis] >= edge) { // also after a tiny negative number was rounded to the edge
-        row[axis] -= edge;
-        anchor[axis] -= edge;
+    if (*place >= edge) { // also after a tiny negative number was rounded to the edge
+        *place -= edge;
+        *anchor -= edge;
         ++*image;
     }
 }
 
 // Whoever leaves a sheared box across y comes back displaced and with the velocity of the image.
 // Image counts along x take the whole turns, so that the unfolded place does not jump.
-KERNEL void fold_sheared(const int dimension, Engine *engine, double *row, uint32_t slot) {
-    const size_t velocity = (dimension == 2 ? ROW_2D : ROW_3D) / 2;
+KERNEL void fold_sheared(const Engine *engine, uint32_t slot) {
     int32_t *image_x = &engine->state->image[0][engine->id[slot]];
     const int32_t *image_y = &engine->state->image[1][engine->id[slot]], before = *image_y;
-    fold_axis(engine, row, slot, 1);
+    fold_axis(engine, slot, 1);
     const int32_t up = *image_y - before;
     if (up == 0) return;
-    row[0] -= up * engine->offset;
-    row[velocity] -= up * engine->image_velocity;
-    engine->list.anchor[(size_t)ANCHOR * slot] -=
-        up * (engine->offset - engine->list.strain * engine->edge[1]);
+    engine->now.place[0][slot] -= up * engine->offset;
+    engine->now.velocity[0][slot] -= up * engine->image_velocity;
+    engine->list.anchor[0][slot] -= up * (engine->offset - engine->list.strain * engine->edge[1]);
     *image_x -= up * engine->turns;
 }
 
-KERNEL void fold(const int dimension, const int flight, Engine *engine, double *row,
-                 uint32_t slot) {
-    if (flight == SHEARED) fold_sheared(dimension, engine, row, slot);
-    for (int a = 0; a < dimension; a++) fold_axis(engine, row, slot, a);
+// Those of the particles from `slot` on whose bits are set.
+KERNEL void fold(const int dimension, const int flight, const Engine *engine, uint32_t slot,
+                 unsigned bits) {
+    for (; bits; bits &= bits - 1) {
+        const uint32_t stray = slot + (uint32_t)__builtin_ctz(bits);
+        if (flight == SHEARED) fold_sheared(engine, stray);
+        for (int a = 0; a < dimension; a++) fold_axis(engine, stray, a);
+    }
 }
 
-// To the end of the window: a row in 3D, a row or two in 2D, as many as a register holds.
-KERNEL void move_rows(const int dimension, const int flight, Engine *engine, uint32_t slot,
-                      Quad *farthest) {
-    const double w = engine->settings.window, *edge = engine->edge;
-    const Quad least = {0, 0, dimension == 2 ? -INFINITY : 0, -INFINITY};
-    const Quad bound = {edge[0], edge[1], dimension == 2 ? INFINITY : edge[2], INFINITY};
-    double *row = engine->rows + (size_t)(dimension == 2 ? ROW_2D : ROW_3D) * slot;
-    Quad place = *(const Quad *)row;
-    if (dimension == 2)
-        place += __builtin_shufflevector(place, place, 2, 3, 2, 3) * (Quad){w, w};
-    else
-        place += *(const Quad *)(row + 4) * (Quad){w, w, w};
-    *(Quad *)row = place;
-    Quad away = place - *(const Quad *)(engine->list.anchor + (size_t)ANCHOR * slot);
-    if (flight == SHEARED)
-        away -= __builtin_shufflevector(place, place, 1, 1, 1, 1) * (Quad){engine->list.strain};
-    Quad away2 = away * away;
-    if (dimension == 2)
-        away2 += __builtin_shufflevector(away2, away2, 1, 0, 2, 3);
-    else
-        away2 += __builtin_shufflevector(away2, away2, 1, 0, 3, 2);
-    if (dimension == 3) away2 += __builtin_shufflevector(away2, away2, 2, 3, 0, 1);
-    quad_keep_larger(farthest, &away2);
-    if (__builtin_expect(!quad_strays(&place, &least, &bound), 1)) return;
-    fold(dimension, flight, engine, row, slot);
+// LANES particles from `slot` on to the end of the window; the bits of those who left the box.
+KERNEL unsigned move(const int dimension, const int flight, const Engine *engine, uint32_t slot,
+                     Lanes *farthest2) {
+    const double w = engine->settings.window;
+    Lanes place[3], away2 = {0};
+    unsigned strays = 0;
+    for (int a = 0; a < dimension; a++) {
+        place[a] = lanes_load(engine->now.place[a] + slot) +
+                   lanes_load(engine->now.velocity[a] + slot) * w;
+        lanes_store(engine->now.place[a] + slot, place[a]);
+        strays |= lanes_outside(place[a], engine->edge[a]);
+    }
+    for (int a = 0; a < dimension; a++) {
+        Lanes away = place[a] - lanes_load(engine->list.anchor[a] + slot);
+        if (flight == SHEARED && a == 0) away -= place[1] * engine->list.strain;
+        away2 = a == 0 ? away * away : away2 + away * away;
+    }
+    *farthest2 = lanes_larger(*farthest2, away2);
+    return strays;
 }
 
-// Particles from..to - 1 as they enter the next window: with a velocity from a Gaussian of variance
-// kT/m per direction (Weysser, thesis, eq. 2.7, corrected), about that of the flow, where they are
-// drawn anew.
-KERNEL void open_rows(const int dimension, const int flight, const int redraw, const Engine *engine,
-                      uint32_t from, uint32_t to) {
-    for (uint32_t slot = from; slot < to; slot++) {
-        const uint32_t row = (dimension == 2 ? ROW_2D : ROW_3D) * slot;
-        double *place = engine->rows + row;
-        if (!redraw) {
-            sketch_row(dimension, engine, row);
-        } else if (dimension == 2) {
-            Pair velocity = pair_widen(engine->normals + row / 2) * engine->thermal[slot];
-            if (flight == SHEARED) velocity += (Pair){engine->next_rate * place[1], 0};
-            *(Pair *)(place + 2) = velocity;
-            sketch_2d(engine, *(const Pair *)place, velocity, engine->sketch + row);
-        } else {
-            Quad velocity = quad_widen(engine->normals + row / 2) * engine->thermal[slot];
-            if (flight == SHEARED) velocity += (Quad){engine->next_rate * place[1], 0, 0, 0};
-            *(Quad *)(place + 4) = velocity;
-            sketch_3d(engine, (const Quad *)place, &velocity, engine->sketch + row);
+// LANES particles from `slot` on as they enter the next window: with a velocity from a Gaussian of
+// variance kT/m per direction (Weysser, thesis, eq. 2.7, corrected), about that of the flow, where
+// they are drawn anew.
+KERNEL Lanes velocity_drawn(const int flight, const Engine *engine, uint32_t slot, int axis) {
+    Lanes velocity = lanes_widen(engine->normals[axis] + slot) * lanes_load(engine->thermal + slot);
+    if (flight == SHEARED && axis == 0)
+        velocity += lanes_load(engine->now.place[1] + slot) * engine->next_rate;
+    lanes_store(engine->now.velocity[axis] + slot, velocity);
+    return velocity;
+}
+
+// WIDE particles from `slot` on.
+KERNEL void open_block(const int dimension, const int flight, const int redraw,
+                       const Engine *engine, uint32_t slot) {
+    const double w = engine->settings.window;
+    Wides now[3], then[3];
+    for (int a = 0; a < dimension; a++) {
+        Lanes place[2], velocity[2];
+        for (uint32_t k = 0; k < 2; k++) {
+            const uint32_t at = slot + LANES * k;
+            place[k] = lanes_load(engine->now.place[a] + at);
+            velocity[k] = redraw ? velocity_drawn(flight, engine, at, a)
+                                 : lanes_load(engine->now.velocity[a] + at);
         }
+        now[a] = wides_narrow(place[0], place[1]);
+        then[a] = wides_narrow(place[0] + velocity[0] * (2 * w), place[1] + velocity[1] * (2 * w));
     }
+    sketch_put(dimension, engine, slot, now, then);
 }
 
-#if LANES == 8
-KERNEL unsigned two_rows_stray(const Engine *engine, Lanes rows) {
-    const double *edge = engine->edge, big = INFINITY;
-    const Lanes least = {0, 0, -big, -big, 0, 0, -big, -big};
-    const Lanes bound = {edge[0], edge[1], big, big, edge[0], edge[1], big, big};
-    return lanes_less(rows, least) | (0xffu & ~lanes_less(rows, bound));
-}
-
-// As move_rows and then open_rows, two rows of 2D at a time; `slot` is even.
-KERNEL void move_two_rows(const int flight, const int redraw, Engine *engine, uint32_t slot,
-                          Lanes *farthest) {
-    const double w = engine->settings.window, *thermal = engine->thermal + slot;
-    double *row = engine->rows + (size_t)ROW_2D * slot;
-    Lanes rows = lanes_load(row);
-    Lanes velocity = __builtin_shufflevector(rows, rows, 2, 3, 2, 3, 6, 7, 6, 7);
-    rows += velocity * (Lanes){w, w, 0, 0, w, w, 0, 0};
-    Lanes away = rows - lanes_load(engine->list.anchor + (size_t)ANCHOR * slot);
-    if (flight == SHEARED) {
-        const double strain = engine->list.strain;
-        away -= __builtin_shufflevector(rows, rows, 1, 1, 1, 1, 5, 5, 5, 5) *
-                (Lanes){strain, 0, 0, 0, strain, 0, 0, 0};
-    }
-    Lanes away2 = away * away;
-    away2 += __builtin_shufflevector(away2, away2, 1, 0, 2, 3, 5, 4, 6, 7);
-    *farthest = (Lanes)_mm512_max_pd((__m512d)*farthest, (__m512d)away2);
-    if (__builtin_expect(two_rows_stray(engine, rows) != 0, 0)) {
-        lanes_store(row, rows);
-        for (uint32_t k = 0; k < 2; k++) fold(2, flight, engine, row + ROW_2D * k, slot + k);
-        rows = lanes_load(row);
-        velocity = __builtin_shufflevector(rows, rows, 2, 3, 2, 3, 6, 7, 6, 7);
-    }
-    if (redraw) {
-        const Quad drawn = quad_widen(engine->normals + 2 * (size_t)slot) *
-                           (Quad){thermal[0], thermal[0], thermal[1], thermal[1]};
-        velocity = __builtin_shufflevector(drawn, drawn, 0, 1, 0, 1, 2, 3, 2, 3);
-        if (flight == SHEARED) {
-            const double rate = engine->next_rate;
-            velocity += __builtin_shufflevector(rows, rows, 1, 1, 1, 1, 5, 5, 5, 5) *
-                        (Lanes){rate, 0, rate, 0, rate, 0, rate, 0};
-        }
-        rows = __builtin_shufflevector(rows, velocity, 0, 1, 10, 11, 4, 5, 14, 15);
-    }
-    lanes_store(row, rows);
-    const Lanes now = __builtin_shufflevector(rows, rows, 0, 1, 0, 1, 4, 5, 4, 5);
-    const Lanes sketch = now + velocity * (Lanes){0, 0, 2 * w, 2 * w, 0, 0, 2 * w, 2 * w};
-    *(EightFloats *)(engine->sketch + (size_t)ROW_2D * slot) =
-        __builtin_convertvector(sketch, EightFloats);
-}
-#endif
-
-// Out of this window and into the next one, a few particles at a time, while they are at hand.
+// Out of this window and into the next one.
 KERNEL void move_all(const int dimension, const int flight, const int redraw, Engine *engine) {
-    enum { FEW = 32 };
-    const uint32_t count = (uint32_t)engine->count;
-    Quad farthest = {0};
-    uint32_t from = 0;
-#if LANES == 8
-    Lanes farthest_two = {0};
-    const uint32_t even = dimension == 2 ? count & ~1u : 0;
-    for (; from < even; from += 2) move_two_rows(flight, redraw, engine, from, &farthest_two);
-    farthest[0] = farthest_two[0] > farthest_two[4] ? farthest_two[0] : farthest_two[4];
-#endif
-    for (; from < count; from += FEW) {
-        const uint32_t to = from + FEW < count ? from + FEW : count;
-        for (uint32_t slot = from; slot < to; slot++) {
-            move_rows(dimension, flight, engine, slot, &farthest);
-        }
-        open_rows(dimension, flight, redraw, engine, from, to);
+    const uint32_t slots = (uint32_t)engine->slots;
+    Lanes farthest2 = {0};
+    for (uint32_t slot = 0; slot < slots; slot += WIDE) {
+        unsigned strays = move(dimension, flight, engine, slot, &farthest2);
+        strays |= move(dimension, flight, engine, slot + LANES, &farthest2) << LANES;
+        if (__builtin_expect(strays != 0, 0)) fold(dimension, flight, engine, slot, strays);
+        open_block(dimension, flight, redraw, engine, slot);
     }
-    if (farthest[0] > engine->list.farthest2) engine->list.farthest2 = farthest[0];
+    for (int k = 0; k < LANES; k++) {
+        if (farthest2[k] > engine->list.farthest2) engine->list.farthest2 = farthest2[k];
+    }
 }
 
 // The images above move on for a window.
@@ -536,8 +459,7 @@ KERNEL void run(const int dimension, const int flight, Engine *engine) {
     Engine own = *engine;
     const Growth growth = {.scale = own.scale, .rate = own.growth};
     own.events_used = 0;
-    own.free_event = NO_EVENT;
-    memset(own.stamp, 0, (own.count + 1) * sizeof *own.stamp);
+    memset(own.stamp, 0, own.slots * sizeof *own.stamp);
     memset(own.bucket, 0xff, own.buckets * sizeof *own.bucket);
     const Sieve sieve = sieve_of(dimension, flight == SHEARED, &own);
     predict_all(dimension, flight, &own, growth, &sieve);
@@ -551,15 +473,31 @@ KERNEL void run(const int dimension, const int flight, Engine *engine) {
 }
 
 // What a window begins with, where there is none before it.
+KERNEL void open_flight(const int dimension, const int flight, const int redraw,
+                        const Engine *engine) {
+    for (uint32_t slot = 0; slot < engine->slots; slot += WIDE) {
+        open_block(dimension, flight, redraw, engine, slot);
+    }
+}
+
 KERNEL void open_all(const int dimension, const Engine *engine) {
     const Engine own = *engine;
-    const uint32_t count = (uint32_t)own.count;
     if (own.redraw && own.sheared)
-        open_rows(dimension, SHEARED, 1, &own, 0, count);
+        open_flight(dimension, SHEARED, 1, &own);
     else if (own.redraw)
-        open_rows(dimension, AT_REST, 1, &own, 0, count);
+        open_flight(dimension, AT_REST, 1, &own);
     else
-        open_rows(dimension, AT_REST, 0, &own, 0, count);
+        open_flight(dimension, AT_REST, 0, &own);
+}
+
+// Of one whose velocity was changed since.
+KERNEL void sketch_again(const int dimension, const Engine *engine, uint32_t slot) {
+    double place[3], velocity[3];
+    for (int a = 0; a < dimension; a++) {
+        place[a] = engine->now.place[a][slot];
+        velocity[a] = engine->now.velocity[a][slot];
+    }
+    sketch_one(dimension, engine, slot, place, velocity);
 }
 
 // Becomes: the two kernels of an instruction set.
@@ -580,7 +518,7 @@ KERNEL void open_all(const int dimension, const Engine *engine) {
         open_all(dimension, engine);                                                               \
     }                                                                                              \
     static void sketch_##dimension(Engine *engine, uint32_t slot) {                                \
-        sketch_row(dimension, engine, (dimension == 2 ? ROW_2D : ROW_3D) * slot);                  \
+        sketch_again(dimension, engine, slot);                                                     \
     }                                                                                              \
     static void pair_##dimension(Engine *engine, size_t cell, const Span *spans, int count) {      \
         pair_cell(dimension, engine, cell, spans, count);                                          \

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Registers of the instruction set: several pairs at a time in single precision, rows in double.
+// Registers of the instruction set: several pairs at a time in single precision, half as many
+// particles in double.
 // Each lane does what one pair alone would do, so the number of lanes never shows in a result.
 #pragma once
 
@@ -20,8 +21,8 @@
 
 #define KERNEL static inline __attribute__((always_inline))
 
-#if LANES == 8
-typedef double Lanes __attribute__((vector_size(64), aligned(64), may_alias));
+typedef double Lanes __attribute__((vector_size(8 * LANES), aligned(8 * LANES), may_alias));
+typedef float Narrow __attribute__((vector_size(4 * LANES), aligned(4 * LANES), may_alias));
 
 KERNEL Lanes lanes_load(const double *from) {
     return *(const Lanes *)from;
@@ -29,42 +30,37 @@ KERNEL Lanes lanes_load(const double *from) {
 KERNEL void lanes_store(double *to, Lanes lanes) {
     *(Lanes *)to = lanes;
 }
-KERNEL unsigned lanes_less(Lanes a, Lanes b) { // one bit each
-    return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ);
+KERNEL Lanes lanes_widen(const float *from) {
+    return __builtin_convertvector(*(const Narrow *)from, Lanes);
 }
-#endif
 
-// Four doubles, which every instruction set can split or join: half a row in 3D, a row in 2D.
+KERNEL Lanes lanes_larger(Lanes a, Lanes b) {
+#if LANES == 8
+    return (Lanes)_mm512_max_pd((__m512d)a, (__m512d)b);
+#elif LANES == 4
+    return (Lanes)_mm256_max_pd((__m256d)a, (__m256d)b);
+#else
+    for (int k = 0; k < LANES; k++) a[k] = a[k] > b[k] ? a[k] : b[k];
+    return a;
+#endif
+}
+
+// Which are outside [0, edge), one bit each.
+KERNEL unsigned lanes_outside(Lanes x, double edge) {
+    const Lanes bound = edge - (Lanes){0};
+#if LANES == 8 // as numbers without a sign, where negative ones are largest
+    return _mm512_cmpge_epu64_mask((__m512i)x, (__m512i)bound);
+#elif LANES == 4
+    return (unsigned)_mm256_movemask_pd((__m256d)((x < 0) | (x >= bound)));
+#else
+    unsigned bits = 0;
+    for (unsigned k = 0; k < LANES; k++) bits |= (unsigned)(x[k] < 0 || x[k] >= bound[k]) << k;
+    return bits;
+#endif
+}
+
+// Four doubles: sums over collisions.
 typedef double Quad __attribute__((vector_size(32), aligned(32), may_alias));
-
-// Two doubles: a velocity in 2D.
-typedef double Pair __attribute__((vector_size(16), aligned(16), may_alias));
-typedef float TwoFloats __attribute__((vector_size(8), aligned(8), may_alias));
-typedef float FourFloats __attribute__((vector_size(16), aligned(16), may_alias));
-
-KERNEL Pair pair_widen(const float *from) {
-    return __builtin_convertvector(*(const TwoFloats *)from, Pair);
-}
-#define quad_widen(from) __builtin_convertvector(*(const FourFloats *)(from), Quad)
-
-KERNEL void quad_keep_larger(Quad *most, const Quad *other) {
-#if LANES >= 4
-    *most = (Quad)_mm256_max_pd((__m256d)*most, (__m256d)*other);
-#else
-    for (int k = 0; k < 4; k++) (*most)[k] = (*other)[k] > (*most)[k] ? (*other)[k] : (*most)[k];
-#endif
-}
-
-// Is any of the four outside [least, bound)?
-KERNEL int quad_strays(const Quad *x, const Quad *least, const Quad *bound) {
-#if LANES >= 4
-    return _mm256_movemask_pd((__m256d)((*x < *least) | (*x >= *bound)));
-#else
-    int strays = 0;
-    for (int k = 0; k < 4; k++) strays |= (*x)[k] < (*least)[k] || (*x)[k] >= (*bound)[k];
-    return strays;
-#endif
-}
 
 #define WIDE (2 * LANES) // floats at a time
 
@@ -87,6 +83,18 @@ KERNEL unsigned wides_less(Wides a, Wides b) {
     unsigned bits = 0;
     for (unsigned k = 0; k < WIDE; k++) bits |= (unsigned)(a[k] < b[k]) << k;
     return bits;
+#endif
+}
+
+KERNEL Wides wides_narrow(Lanes low, Lanes high) {
+    const Narrow a = __builtin_convertvector(low, Narrow),
+                 b = __builtin_convertvector(high, Narrow);
+#if LANES == 8
+    return (Wides)_mm512_insertf32x8(_mm512_castps256_ps512((__m256)a), (__m256)b, 1);
+#elif LANES == 4
+    return (Wides)_mm256_insertf128_ps(_mm256_castps128_ps256((__m128)a), (__m128)b, 1);
+#else
+    return __builtin_shufflevector(a, b, 0, 1, 2, 3);
 #endif
 }
 

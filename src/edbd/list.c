@@ -17,7 +17,6 @@ static const double SKIN[2][2] = {
 static const double SKIN_WINDOWS = 16;       // least skin, in thermal flights of one window
 static const double INNER_SKIN_WINDOWS = 48; // the inner skin, in the same,
 static const double INNER_SKIN_MOST = 0.3;   // where that is below this part of the outer
-static const double FAR_AWAY = 1e15;         // where the particle is that nothing meets
 static const float NEVER = -1e30F;           // contact distance squared of pairs that never meet
 
 typedef struct Grid {
@@ -55,12 +54,13 @@ static Grid grid_that_fits(const Engine *engine, double range) {
     return grid;
 }
 
-// In which a place is: along the edges of the box, the second of which leans.
-static int cell_at(const Engine *engine, const Grid *grid, const double place[3]) {
-    const double x = place[0] - grid->lean * place[1], edge = engine->edge[0];
+// In which a particle is: along the edges of the box, the second of which leans.
+static int cell_at(const Engine *engine, const Grid *grid, size_t slot) {
+    double *const *place = engine->now.place;
+    const double x = place[0][slot] - grid->lean * place[1][slot], edge = engine->edge[0];
     int cell = 0;
     for (int a = engine->dimension - 1; a > 0; a--) {
-        cell = (cell + cell_along(grid, a, place[a])) * grid->cells[a - 1];
+        cell = (cell + cell_along(grid, a, place[a][slot])) * grid->cells[a - 1];
     }
     return cell + cell_along(grid, 0, x < 0 ? x + edge : x < edge ? x : x - edge);
 }
@@ -68,8 +68,7 @@ static int cell_at(const Engine *engine, const Grid *grid, const double place[3]
 static void count_cells(Engine *engine, const Grid *grid) {
     memset(engine->cell_start, 0, (grid_size(grid) + 1) * sizeof *engine->cell_start);
     for (size_t slot = 0; slot < engine->count; slot++) {
-        const double *row = engine->rows + engine->row * slot;
-        const int cell = cell_at(engine, grid, row);
+        const int cell = cell_at(engine, grid, slot);
         engine->cell_of[slot] = (uint32_t)cell;
         engine->cell_start[cell + 1]++;
     }
@@ -79,23 +78,30 @@ static void count_cells(Engine *engine, const Grid *grid) {
 }
 
 static void swap_in_sorted(Engine *engine) {
-    double *rows = engine->rows;
+    const Motion now = engine->now;
     uint32_t *id = engine->id;
-    engine->rows = engine->spare_rows;
+    engine->now = engine->spare;
     engine->id = engine->spare_id;
-    engine->spare_rows = rows;
+    engine->spare = now;
     engine->spare_id = id;
 }
 
+static void reorder(const double *from, double *to, const uint32_t *order, size_t count) {
+    for (size_t slot = 0; slot < count; slot++) to[order[slot]] = from[slot];
+}
+
 static void sort_by_cell(Engine *engine, const Grid *grid) {
-    const size_t row = engine->row, cells = grid_size(grid);
+    uint32_t *order = engine->cell_of; // becomes: the new slot of each
     for (size_t slot = 0; slot < engine->count; slot++) {
-        const uint32_t to = engine->cell_start[engine->cell_of[slot]]++;
-        memcpy(engine->spare_rows + row * to, engine->rows + row * slot, row * sizeof(double));
-        engine->spare_id[to] = engine->id[slot];
+        order[slot] = engine->cell_start[engine->cell_of[slot]]++;
+        engine->spare_id[order[slot]] = engine->id[slot];
     }
-    for (size_t c = cells; c > 0; c--) engine->cell_start[c] = engine->cell_start[c - 1];
+    for (size_t c = grid_size(grid); c > 0; c--) engine->cell_start[c] = engine->cell_start[c - 1];
     engine->cell_start[0] = 0;
+    for (int a = 0; a < engine->dimension; a++) {
+        reorder(engine->now.place[a], engine->spare.place[a], order, engine->count);
+        reorder(engine->now.velocity[a], engine->spare.velocity[a], order, engine->count);
+    }
     swap_in_sorted(engine);
     for (size_t slot = 0; slot < engine->count; slot++) {
         const uint32_t id = engine->id[slot];
@@ -105,22 +111,24 @@ static void sort_by_cell(Engine *engine, const Grid *grid) {
     }
 }
 
-static void place_anchors(Engine *engine) {
-    for (size_t slot = 0; slot < engine->count; slot++) {
-        const double *row = engine->rows + engine->row * slot;
-        double *anchor = engine->list.anchor + ANCHOR * slot;
-        for (int a = 0; a < engine->dimension; a++) anchor[a] = row[a];
+static void copy_places(const Engine *engine, double *const to[3]) {
+    for (int a = 0; a < engine->dimension; a++) {
+        memcpy(to[a], engine->now.place[a], engine->count * sizeof(double));
     }
+}
+
+static void place_anchors(Engine *engine) {
+    copy_places(engine, engine->list.anchor);
     engine->list.farthest2 = 0;
     engine->list.strain = 0;
 }
 
 // From where a particle was when the list was made, flow apart; it may have been folded since.
 static void displacement_of(const Engine *engine, size_t slot, double d[3]) {
-    const double *place = engine->rows + engine->row * slot;
-    const double *origin = engine->list.origin + ANCHOR * slot;
-    for (int a = 0; a < engine->dimension; a++) d[a] = place[a] - origin[a];
-    const double above = rint(d[1] / engine->edge[1]), y = place[1] - above * engine->edge[1];
+    double *const *place = engine->now.place, *const *origin = engine->list.origin;
+    for (int a = 0; a < engine->dimension; a++) d[a] = place[a][slot] - origin[a][slot];
+    const double above = rint(d[1] / engine->edge[1]);
+    const double y = place[1][slot] - above * engine->edge[1];
     d[0] -= above * engine->offset + (engine->list.strain_before + engine->list.strain) * y;
     for (int a = 0; a < engine->dimension; a++)
         d[a] -= engine->edge[a] * rint(d[a] / engine->edge[a]);
@@ -138,19 +146,13 @@ static double largest_displacement(const Engine *engine) {
 }
 
 static void fill_columns(Engine *engine) {
-    for (size_t slot = 0; slot < engine->count; slot++) {
-        const double *row = engine->rows + engine->row * slot;
-        for (int a = 0; a < engine->dimension; a++) engine->column[a][slot] = (float)row[a];
-        engine->column[engine->dimension][slot] = (float)engine->radius[slot];
-    }
-}
-
-static void place_nobody(Engine *engine) {
-    double *nobody = engine->rows + engine->row * engine->count;
-    float *sketch = engine->sketch + engine->row * engine->count;
-    for (size_t k = 0; k < engine->row; k++) {
-        nobody[k] = k < engine->row / 2 ? FAR_AWAY : 0;
-        sketch[k] = (float)FAR_AWAY;
+    const double *const from[4] = {engine->now.place[0], engine->now.place[1],
+                                   engine->dimension == 3 ? engine->now.place[2] : engine->radius,
+                                   engine->radius};
+    for (int a = 0; a <= engine->dimension; a++) {
+        for (size_t slot = 0; slot < engine->count; slot++) {
+            engine->column[a][slot] = (float)from[a][slot];
+        }
     }
 }
 
@@ -361,9 +363,8 @@ Status list_build(Engine *engine) {
     const Grid grid = grid_that_fits(engine, engine->largest * engine->scale + list->skin);
     count_cells(engine, &grid);
     sort_by_cell(engine, &grid);
-    place_nobody(engine);
     place_anchors(engine);
-    memcpy(list->origin, list->anchor, ANCHOR * engine->count * sizeof(double));
+    copy_places(engine, list->origin);
     fill_columns(engine);
     engine->tally.rebuilds++;
     engine->redraw = 0;
@@ -412,8 +413,10 @@ double list_reach(const Engine *engine) {
 Status list_create(Engine *engine) {
     NeighbourList *list = &engine->list;
     engine->cells_most = 2 * engine->count + 27;
-    TRY(NEW_ARRAY(list->anchor, ANCHOR * (engine->count + 1)));
-    TRY(NEW_ARRAY(list->origin, ANCHOR * (engine->count + 1)));
+    for (int a = 0; a < engine->dimension; a++) {
+        TRY(NEW_ARRAY(list->anchor[a], engine->slots));
+        TRY(NEW_ARRAY(list->origin[a], engine->slots));
+    }
     TRY(NEW_ARRAY(list->start, engine->count + 1));
     TRY(NEW_ARRAY(list->pair_start, engine->count + 1));
     TRY(NEW_ARRAY(engine->cell_of, engine->count + 1));
@@ -423,8 +426,10 @@ Status list_create(Engine *engine) {
 
 void list_free(Engine *engine) {
     NeighbourList *list = &engine->list;
-    memory_free(list->anchor);
-    memory_free(list->origin);
+    for (int a = 0; a < 3; a++) {
+        memory_free(list->anchor[a]);
+        memory_free(list->origin[a]);
+    }
     memory_free(list->first);
     memory_free(list->second);
     memory_free(list->pair_contact2);

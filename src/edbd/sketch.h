@@ -14,6 +14,8 @@
 #include "edbd/engine.h"
 #include "edbd/lanes.h"
 
+typedef float FourFloats __attribute__((vector_size(16), aligned(16), may_alias));
+
 // Of pairs, in each half of a register.
 enum { HALF = WIDE / 2 };
 typedef struct Rows {
@@ -67,9 +69,27 @@ KERNEL void wides_turn(const Wides row[4], Wides column[4]) {
     column[3] = IN_BLOCKS(ab23, cd23, 2, 3, WIDE + 2, WIDE + 3);
 }
 
+// Writes block m of four vectors to `to` + m step, one after the other.
+KERNEL void wides_store_blocks(float *to, size_t step, const Wides x[4]) {
 #if LANES == 8
-typedef float EightFloats __attribute__((vector_size(32), aligned(32), may_alias));
+    const __m512 ab01 = _mm512_shuffle_f32x4((__m512)x[0], (__m512)x[1], 0x44);
+    const __m512 ab23 = _mm512_shuffle_f32x4((__m512)x[0], (__m512)x[1], 0xee);
+    const __m512 cd01 = _mm512_shuffle_f32x4((__m512)x[2], (__m512)x[3], 0x44);
+    const __m512 cd23 = _mm512_shuffle_f32x4((__m512)x[2], (__m512)x[3], 0xee);
+    _mm512_store_ps(to, _mm512_shuffle_f32x4(ab01, cd01, 0x88));
+    _mm512_store_ps(to + step, _mm512_shuffle_f32x4(ab01, cd01, 0xdd));
+    _mm512_store_ps(to + 2 * step, _mm512_shuffle_f32x4(ab23, cd23, 0x88));
+    _mm512_store_ps(to + 3 * step, _mm512_shuffle_f32x4(ab23, cd23, 0xdd));
+#else
+    for (size_t m = 0; m < WIDE / 4; m++) {
+        for (size_t k = 0; k < 4; k++) {
+            ((FourFloats *)(to + m * step))[k] = ((const FourFloats *)&x[k])[m];
+        }
+    }
+#endif
+}
 
+#if LANES == 8
 KERNEL Wides wides_four_rows(const Rows *i, int k) {
     const __m512 a = _mm512_castps128_ps512(_mm_load_ps(row_of(i, k)));
     const __m512 b = _mm512_insertf32x4(a, _mm_load_ps(row_of(i, k + 4)), 1);
@@ -207,23 +227,38 @@ KERNEL Wides distance2(const int dimension, const int sheared, const Sieve *siev
     return r2;
 }
 
-// Of a particle at a place with a velocity.
-KERNEL void sketch_2d(const Engine *engine, Pair place, Pair velocity, float *to) {
-    const Pair then = place + velocity * (2 * engine->settings.window);
-    *(FourFloats *)to =
-        __builtin_convertvector(__builtin_shufflevector(place, then, 0, 1, 2, 3), FourFloats);
-}
-KERNEL void sketch_3d(const Engine *engine, const Quad *place, const Quad *velocity, float *to) {
-    const Quad then = *place + *velocity * (2 * engine->settings.window);
-    *(FourFloats *)to = __builtin_convertvector(*place, FourFloats);
-    *(FourFloats *)(to + 4) = __builtin_convertvector(then, FourFloats);
+// The sketches of WIDE particles from `slot` on, a multiple of WIDE.
+KERNEL void sketch_put(const int dimension, const Engine *engine, uint32_t slot, const Wides now[3],
+                       const Wides then[3]) {
+    const Wides zero = {0};
+    Wides row[4], row_then[4];
+    float *to = engine->sketch + (size_t)slot * (dimension == 2 ? ROW_2D : ROW_3D);
+    if (dimension == 2) {
+        wides_turn((const Wides[4]){now[0], now[1], then[0], then[1]}, row);
+        wides_store_blocks(to, 4 * ROW_2D, row);
+        return;
+    }
+    wides_turn((const Wides[4]){now[0], now[1], now[2], zero}, row);
+    wides_turn((const Wides[4]){then[0], then[1], then[2], zero}, row_then);
+    wides_store_blocks(to, 4 * ROW_3D, (const Wides[4]){row[0], row_then[0], row[1], row_then[1]});
+    wides_store_blocks(to + 2 * ROW_3D, 4 * ROW_3D,
+                       (const Wides[4]){row[2], row_then[2], row[3], row_then[3]});
 }
 
-KERNEL void sketch_row(const int dimension, const Engine *engine, uint32_t row) {
-    const double *place = engine->rows + row;
-    float *to = engine->sketch + row;
-    if (dimension == 2)
-        sketch_2d(engine, *(const Pair *)place, *(const Pair *)(place + 2), to);
-    else
-        sketch_3d(engine, (const Quad *)place, (const Quad *)(place + 4), to);
+// Of one particle at a place with a velocity. Whole rows are stored: the loads of rows that follow
+// would wait for smaller stores.
+KERNEL void sketch_one(const int dimension, const Engine *engine, uint32_t slot,
+                       const double place[3], const double velocity[3]) {
+    const double way = 2 * engine->settings.window;
+    FourFloats *to = (FourFloats *)engine->sketch + (size_t)slot * (dimension == 2 ? 1 : 2);
+    if (dimension == 2) {
+        const Quad row = {place[0], place[1], place[0] + velocity[0] * way,
+                          place[1] + velocity[1] * way};
+        to[0] = __builtin_convertvector(row, FourFloats);
+        return;
+    }
+    const Quad now = {place[0], place[1], place[2], 0};
+    const Quad then = now + (Quad){velocity[0], velocity[1], velocity[2], 0} * way;
+    to[0] = __builtin_convertvector(now, FourFloats);
+    to[1] = __builtin_convertvector(then, FourFloats);
 }

@@ -16,9 +16,10 @@ typedef void NormalsFill(const NormalsKey *key, const uint32_t *ids, size_t coun
                          double *const normals[3]);
 NormalsFill normals_fill_portable, normals_fill_avx2, normals_fill_avx512;
 
-typedef void NormalsFillRows(const NormalsKey *key, const uint32_t *ids, size_t count,
-                             int components, float *rows);
-NormalsFillRows normals_fill_rows_portable, normals_fill_rows_avx2, normals_fill_rows_avx512;
+typedef void NormalsFillSingle(const NormalsKey *key, const uint32_t *ids, size_t count,
+                               int components, float *const normals[3]);
+NormalsFillSingle normals_fill_single_portable, normals_fill_single_avx2,
+    normals_fill_single_avx512;
 
 // Words of the counters 0, 1, ... `pairs` - 1, a multiple of 16: the first of each, then the
 // second.

@@ -8,9 +8,9 @@ void normals_fill_avx2(const NormalsKey *key, const uint32_t *ids, size_t count,
     fill_normals(key, ids, count, components, normals);
 }
 
-void normals_fill_rows_avx2(const NormalsKey *key, const uint32_t *ids, size_t count,
-                            int components, float *rows) {
-    fill_rows(key, ids, count, components, rows);
+void normals_fill_single_avx2(const NormalsKey *key, const uint32_t *ids, size_t count,
+                              int components, float *const normals[3]) {
+    fill_single(key, ids, count, components, normals);
 }
 
 void rng_fill_words_avx2(const uint32_t key[3], size_t pairs, uint32_t *words) {

@@ -124,19 +124,6 @@ typedef struct Chunk {
     _Alignas(4 * LANES) float normals[3][CHUNK];
 } Chunk;
 
-// The same choice of four lanes from a (0, 1, ...) and b (LANES, LANES + 1, ...) in every block of
-// four.
-#if LANES == 16
-#define IN_BLOCKS(a, b, p, q, r, s)                                                                \
-    __builtin_shufflevector(a, b, p, q, r, s, p + 4, q + 4, r + 4, s + 4, p + 8, q + 8, r + 8,     \
-                            s + 8, p + 12, q + 12, r + 12, s + 12)
-#elif LANES == 8
-#define IN_BLOCKS(a, b, p, q, r, s)                                                                \
-    __builtin_shufflevector(a, b, p, q, r, s, p + 4, q + 4, r + 4, s + 4)
-#else
-#define IN_BLOCKS(a, b, p, q, r, s) __builtin_shufflevector(a, b, p, q, r, s)
-#endif
-
 #define LOAD(vector, array) memcpy(&(vector), (array), sizeof(vector))
 #define STORE(vector, array) memcpy((array), &(vector), sizeof(vector))
 
@@ -205,46 +192,16 @@ KERNEL void fill_normals(const NormalsKey *key, const uint32_t *ids, size_t coun
     }
 }
 
-KERNEL void fill_rows_2d(const Chunk *chunk, size_t count, float *rows) {
-    for (size_t i = 0; i < count; i++) {
-        rows[2 * i] = chunk->normals[0][i];
-        rows[2 * i + 1] = chunk->normals[1][i];
-    }
-}
-
-// Turned four by four: of each block of four lanes of x, y and z, four rows.
-KERNEL void fill_rows_3d(const Chunk *chunk, size_t count, float *rows) {
-    const Reals zero = {0};
-    for (size_t i = 0; i < count; i += LANES) {
-        Reals x, y, z, row[4];
-        LOAD(x, chunk->normals[0] + i);
-        LOAD(y, chunk->normals[1] + i);
-        LOAD(z, chunk->normals[2] + i);
-        const Reals xy01 = IN_BLOCKS(x, y, 0, LANES, 1, LANES + 1);
-        const Reals xy23 = IN_BLOCKS(x, y, 2, LANES + 2, 3, LANES + 3);
-        const Reals z01 = IN_BLOCKS(z, zero, 0, LANES, 1, LANES + 1);
-        const Reals z23 = IN_BLOCKS(z, zero, 2, LANES + 2, 3, LANES + 3);
-        row[0] = IN_BLOCKS(xy01, z01, 0, 1, LANES, LANES + 1);
-        row[1] = IN_BLOCKS(xy01, z01, 2, 3, LANES + 2, LANES + 3);
-        row[2] = IN_BLOCKS(xy23, z23, 0, 1, LANES, LANES + 1);
-        row[3] = IN_BLOCKS(xy23, z23, 2, 3, LANES + 2, LANES + 3);
-        for (size_t k = 0; k < LANES; k++) {
-            memcpy(rows + 4 * (i + k), (const float *)&row[k % 4] + k / 4 * 4, 4 * sizeof(float));
-        }
-    }
-}
-
-// The same numbers in rows: x y of each particle, or x y z 0.
-KERNEL void fill_rows(const NormalsKey *key, const uint32_t *ids, size_t count, int components,
-                      float *rows) {
+// The same numbers as they are before they are widened.
+KERNEL void fill_single(const NormalsKey *key, const uint32_t *ids, size_t count, int components,
+                        float *const normals[3]) {
     Chunk chunk;
     for (size_t at = 0; at < count; at += CHUNK) {
         const size_t size = chunk_size(count, at);
         fill(&chunk, key, ids + at, size, components);
-        if (components == 2)
-            fill_rows_2d(&chunk, size, rows + 2 * at);
-        else
-            fill_rows_3d(&chunk, size, rows + 4 * at);
+        for (int a = 0; a < components; a++) {
+            memcpy(normals[a] + at, chunk.normals[a], size * sizeof(float));
+        }
     }
 }
 

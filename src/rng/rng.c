@@ -74,13 +74,14 @@ void rng_normals_with(CpuPath path, RngKey key, RngStream stream, uint64_t step,
     fills[path](&words, ids, count, components, normals);
 }
 
-void rng_normal_rows_with(CpuPath path, RngKey key, RngStream stream, uint64_t step,
-                          const uint32_t *ids, size_t count, int components, float *rows) {
-    static NormalsFillRows *const fills[CPU_PATHS] = {
-        normals_fill_rows_portable, normals_fill_rows_avx2, normals_fill_rows_avx512};
+void rng_normals_single_with(CpuPath path, RngKey key, RngStream stream, uint64_t step,
+                             const uint32_t *ids, size_t count, int components,
+                             float *const normals[3]) {
+    static NormalsFillSingle *const fills[CPU_PATHS] = {
+        normals_fill_single_portable, normals_fill_single_avx2, normals_fill_single_avx512};
     ASSERT(components == 2 || components == 3);
     const NormalsKey words = normals_key(key, stream, step);
-    fills[path](&words, ids, count, components, rows);
+    fills[path](&words, ids, count, components, normals);
 }
 
 // Asked of the processor once: that takes as long as a hundred normal numbers.
@@ -99,9 +100,9 @@ void rng_normals(RngKey key, RngStream stream, uint64_t step, const uint32_t *id
     rng_normals_with(chosen_path(), key, stream, step, ids, count, components, normals);
 }
 
-void rng_normal_rows(RngKey key, RngStream stream, uint64_t step, const uint32_t *ids, size_t count,
-                     int components, float *rows) {
-    rng_normal_rows_with(chosen_path(), key, stream, step, ids, count, components, rows);
+void rng_normals_single(RngKey key, RngStream stream, uint64_t step, const uint32_t *ids,
+                        size_t count, int components, float *const normals[3]) {
+    rng_normals_single_with(chosen_path(), key, stream, step, ids, count, components, normals);
 }
 
 void rng_words_with(CpuPath path, RngKey key, RngStream stream, uint64_t block,

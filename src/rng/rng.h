@@ -47,13 +47,12 @@ void rng_normals(RngKey key, RngStream stream, uint64_t step, const uint32_t *id
 void rng_normals_with(CpuPath path, RngKey key, RngStream stream, uint64_t step,
                       const uint32_t *ids, size_t count, int components, double *const normals[3]);
 
-// The same numbers as they are before they are widened, in rows of 2 (x y) or 4 (x y z 0) on a
-// boundary of 16 bytes; up to RNG_ROOM rows beyond `count` may be written to.
-enum { RNG_ROOM = 16 };
-void rng_normal_rows(RngKey key, RngStream stream, uint64_t step, const uint32_t *ids, size_t count,
-                     int components, float *rows);
-void rng_normal_rows_with(CpuPath path, RngKey key, RngStream stream, uint64_t step,
-                          const uint32_t *ids, size_t count, int components, float *rows);
+// The same numbers as they are before they are widened.
+void rng_normals_single(RngKey key, RngStream stream, uint64_t step, const uint32_t *ids,
+                        size_t count, int components, float *const normals[3]);
+void rng_normals_single_with(CpuPath path, RngKey key, RngStream stream, uint64_t step,
+                             const uint32_t *ids, size_t count, int components,
+                             float *const normals[3]);
 
 // For the hot path: raw words, RNG_BLOCK of them in each numbered block; word i of a block is a
 // pure function of (key, stream, block, i). Vectorised Threefry2x32, keyed at each block by Philox.
