@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "config/config.h"
+#include "propagator/tracer.h"
 #include "protocol/replica.h"
 
 #include <math.h>
@@ -48,13 +49,32 @@ static Status print_method(const Plan *plan, const Stage *stage) {
     const Dynamics *dynamics = &stage->dynamics;
     if (!dynamics->kind->describe) return OK;
     Text lines = {0};
-    dynamics->kind->describe(&dynamics->settings, &plan->system, stage_time(stage), &lines);
+    dynamics->kind->describe(&dynamics->settings, &plan->system, &stage->drive, stage_time(stage),
+                             &lines);
     for (const char *line = text_words(&lines); *line; line += strcspn(line, "\n") + 1) {
         printf("          %-16s %.*s\n", "", (int)strcspn(line, "\n"), line);
     }
     const Status status = text_status(&lines);
     text_free(&lines);
     return status;
+}
+
+static void print_pull(const System *system, const Pull *pull, const Clock *clock) {
+    const Species *tracer = &system->species[tracer_species(pull, system)];
+    const double force = drive_pull_force(pull, tracer->diameter);
+    int64_t period, on;
+    drive_pull_ticks(pull, clock->tick, clock->ticks_per_step, &period, &on);
+    printf("          %-16s F = %.6g kT/d on %s along %s: Pe = F a/kT = %.6g", "  driven by", force,
+           pull->species, drive_pull_axes[pull->axis], pull->peclet);
+    if (!clock->flies) printf(", clock %s", drive_pull_clocks[pull->clock]);
+    printf("\n          %-16s alone it drifts at %.4g D0/d; ", "",
+           force * tracer_free_diffusion(pull, system, clock->thermostatted));
+    if (period > clock->ticks)
+        printf("one trajectory in each replica\n");
+    else
+        printf("%lld trajectories of %.4g %s in each replica, with rests of %.4g\n",
+               (long long)(clock->ticks / period), (double)on * clock->tick, clock->unit,
+               (double)(period - on) * clock->tick);
 }
 
 static Status print_stage(const Plan *plan, size_t index) {
@@ -71,6 +91,8 @@ static Status print_stage(const Plan *plan, size_t index) {
     if (drive_kinds(&stage->drive) & DRIVE_FLOW)
         printf("          %-16s %s\n", "  driven by",
                flow_words((char[FLOW_WORDS_SIZE]){0}, &stage->drive.flow));
+    if (drive_kinds(&stage->drive) & DRIVE_PULL)
+        print_pull(&plan->system, &stage->drive.pull, &clock);
     TRY(print_method(plan, stage));
     if (stage->observation_count == 0) printf("          %-16s nothing\n", "  observes");
     for (size_t k = 0; k < stage->observation_count; k++) {

@@ -103,6 +103,7 @@ typedef struct DynamicPropagator {
     size_t tracer;        // species
     int64_t period, pull; // ticks of a trajectory's period, and from its start with the force
     int64_t ticks;        // done
+    TracerSettling settling;
 } DynamicPropagator;
 
 static const Dynamic *dynamic(const Settings *settings) {
@@ -136,6 +137,19 @@ static double predicted_cycle(const Dynamic *set, const System *system) {
     const Diffusion first = species_diffusion(&system->species[0]);
     return predicted(set, system, 0) * set->step * set->step / (6 * first.parallel) *
            system_reference_diffusion(system);
+}
+
+// The step up to which a drifted tracer surely keeps the pace of the bath. Pressed against a wall
+// it has gaps of kT/F on average, and drifted trials of the spread w are accepted as erfc(F w/sqrt
+// 8), so that a cycle is worth at most 0.66/(D F^2), however long the trials: in what a bath's
+// cycle of acceptance A is worth, F step sqrt A = 2. Tracers were seen to run away from 1.5 to 1.6
+// on at a packing fraction of 0.5, from 1.6 to 2.0 at 0.35, above 2.9 at 0.2.
+static double pressed_step(const Dynamic *set, const System *system, const Pull *pull) {
+    static const double PRESSED = 1.5;
+    const size_t s = tracer_species(pull, system);
+    const double force = drive_pull_force(pull, system->species[s].diameter);
+    const double here = force * first_step(set, system, s) * sqrt(predicted(set, system, 0));
+    return here > 0 ? set->step * PRESSED / here : INFINITY;
 }
 
 // The largest of 1, 2, 5 times a power of ten not above x < 1.
@@ -199,7 +213,27 @@ static double seconds(const Settings *settings, const System *system) {
     return tick(settings, system) / predicted_cycle(set, system) * chain_seconds_per_trial(system);
 }
 
-static void describe(const Settings *settings, const System *system, double time, Text *lines) {
+static void describe_pull(const Dynamic *set, const System *system, const Pull *pull, Text *lines) {
+    const size_t s = tracer_species(pull, system);
+    const double force = drive_pull_force(pull, system->species[s].diameter);
+    const double step = first_step(set, system, s);
+    if (pull->clock != PULL_DRIFTED) {
+        text_add(lines, "the work of a trial of %s is up to %.3g kT\n", pull->species,
+                 force * step);
+        return;
+    }
+    text_add(lines, "%s drifts by %.3g d in a trial, %.3g of its thermal spread\n", pull->species,
+             force * step * step / 6, force * step / sqrt(12));
+    const double pressed = pressed_step(set, system, pull);
+    if (set->step > pressed)
+        text_add(lines,
+                 "at this step %s, pressed against its neighbours, may not keep the bath's pace: "
+                 "take one below about %.2g\n",
+                 pull->species, pressed);
+}
+
+static void describe(const Settings *settings, const System *system, const Drive *drive,
+                     double time, Text *lines) {
     const Dynamic *set = dynamic(settings);
     const ChainSettings chain = chain_settings(set);
     for (size_t s = 0; s < system->species_count; s++) {
@@ -222,6 +256,7 @@ static void describe(const Settings *settings, const System *system, double time
     text_add(lines, "an acceptance of %s0.3, 0.5, 0.8 wants a step of about %.2g, %.2g, %.2g\n",
              hard ? "" : "more than ", predict_step(system, 0, 0.3, &chain),
              predict_step(system, 0, 0.5, &chain), predict_step(system, 0, 0.8, &chain));
+    if (drive_kinds(drive) & DRIVE_PULL) describe_pull(set, system, &drive->pull, lines);
 }
 
 static void release(Propagator *propagator) {
@@ -365,6 +400,15 @@ static bool is_tracer(const DynamicPropagator *made, size_t species) {
     return made->pulled && species == made->tracer;
 }
 
+static void note_round(DynamicPropagator *made) {
+    TracerSettling *settling = &made->settling;
+    if (settling->rounds == SETTLING_MOST) return;
+    settling->cycles = (double)ROUND;
+    settling->step[settling->rounds] = clock_step(made->clock, made->tracer);
+    settling->pace[settling->rounds++] =
+        clock_cycle_of(made->clock, made->tracer) / clock_cycle_of(made->clock, 0);
+}
+
 // The tracer's step, every so many cycles, until its clock is the bath's; then it is frozen.
 static Status settle_tracer(DynamicPropagator *made) {
     const int64_t trials = ROUND * (int64_t)made->state->count;
@@ -372,6 +416,7 @@ static Status settle_tracer(DynamicPropagator *made) {
     for (int k = 0; k < rounds; k++) {
         clock_restart(made->clock);
         TRY(clock_run(made->clock, trials, NULL));
+        note_round(made);
         TRY(adjust(made, made->tracer, 2.0 / (k + 2)));
     }
     return OK;
@@ -404,11 +449,14 @@ static Status advance(Propagator *propagator, int64_t ticks, Tally *tally) {
         TRY(clock_advance(made->clock, made->tick, tally));
     }
     clock_publish(made->clock);
+    tally->settling = made->pulled ? &made->settling : NULL;
     return check_running(made);
 }
 
 static void archive(Propagator *propagator, Archive *archive) {
-    clock_archive(own(propagator)->clock, archive);
+    DynamicPropagator *made = own(propagator);
+    clock_archive(made->clock, archive);
+    if (made->pulled) tally_archive_settling(&made->settling, archive);
 }
 
 const PropagatorKind propagator_dynamic_monte_carlo = {

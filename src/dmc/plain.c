@@ -85,7 +85,9 @@ static double bounded_step(const System *system, double step) {
     return fmin(fmax(step, 1e-6), most);
 }
 
-static void describe(const Settings *settings, const System *system, double time, Text *lines) {
+static void describe(const Settings *settings, const System *system, const Drive *drive,
+                     double time, Text *lines) {
+    (void)drive;
     (void)time;
     const double acceptance = plain(settings)->acceptance;
     for (size_t s = 0; s < system->species_count; s++) {

@@ -139,9 +139,22 @@ static double newtonian_seconds(const Settings *settings, const System *system) 
     return engine_seconds(newtonian(settings)->window, system);
 }
 
+// D F of the tracer, in sqrt(kT/m).
+static double pulled_drift(const Pull *pull, const System *system, double interval) {
+    const Species *tracer = &system->species[tracer_species(pull, system)];
+    return drive_pull_force(pull, tracer->diameter) * interval / (2 * tracer->mass);
+}
+
+static void describe_pull(double interval, const System *system, const Pull *pull, Text *lines) {
+    const Species *tracer = &system->species[tracer_species(pull, system)];
+    const double drift = pulled_drift(pull, system, interval);
+    text_add(lines, "%s drifts by %.3g d in an interval, %.3g of a thermal flight\n", tracer->name,
+             drift * interval, drift * sqrt(tracer->mass));
+}
+
 // The thermostat gives every species D = kT Delta/(2 m), so that D_a/D0 = m_first/m_a.
-static void event_driven_describe(const Settings *settings, const System *system, double time,
-                                  Text *lines) {
+static void event_driven_describe(const Settings *settings, const System *system,
+                                  const Drive *drive, double time, Text *lines) {
     static const double MANY = 1; // collisions, with which flight in an interval is hardly free
     (void)time;
     const double interval = event_driven(settings)->thermostat_interval;
@@ -153,6 +166,7 @@ static void event_driven_describe(const Settings *settings, const System *system
     }
     text_add(lines, "\nabout %.2g collisions per particle and interval%s\n", collisions,
              collisions > MANY ? ": long-time diffusion is biased, take a shorter one" : "");
+    if (drive_kinds(drive) & DRIVE_PULL) describe_pull(interval, system, &drive->pull, lines);
 }
 
 static Status propagator_create(Propagator **out, const PropagatorKind *kind,
@@ -198,12 +212,6 @@ static Status check_flow(const Settings *settings, const System *system, const F
                        "shorter thermostat_interval",
                        flow_words((char[FLOW_WORDS_SIZE]){0}, flow), strain,
                        event_driven_flight(settings), most);
-}
-
-// D F of the tracer, in sqrt(kT/m).
-static double pulled_drift(const Pull *pull, const System *system, double interval) {
-    const Species *tracer = &system->species[tracer_species(pull, system)];
-    return drive_pull_force(pull, tracer->diameter) * interval / (2 * tracer->mass);
 }
 
 static Status check_pull(const Settings *settings, const System *system, const Pull *pull) {

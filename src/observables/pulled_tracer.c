@@ -12,6 +12,7 @@
 #include "propagator/tracer.h"
 
 #include <math.h>
+#include <string.h>
 
 typedef struct TracerSettings {
     int64_t looks;
@@ -61,6 +62,7 @@ typedef struct Tracer {
     double *along;             // [looks] sum of displacements
     double *squares;           // [looks][SQUARES] sums of squares along, and across per direction
     double passage[2][BEGINS]; // distance and time of the steady parts
+    TracerSettling settling;   // of its Monte Carlo step, before the stage
 } Tracer;
 
 static const TracerSettings *settings_of(const Settings *settings) {
@@ -177,8 +179,8 @@ static void add(Tracer *tracer, size_t look, double along, double across2) {
 }
 
 static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
-    (void)tally;
     Tracer *tracer = (Tracer *)observer;
+    if (tally->settling && tracer->settling.rounds == 0) tracer->settling = *tally->settling;
     const int64_t phase = tick % tracer->looking.period;
     if (phase == 0) begin(tracer, state);
     if (phase == 0 || !tracer->running) return OK;
@@ -195,7 +197,7 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
     return OK;
 }
 
-static const uint64_t TRACER_TAG = 0x5452414345523031; // "TRACER01"
+static const uint64_t TRACER_TAG = 0x5452414345523032; // "TRACER02"
 
 static void archive(Observer *observer, Archive *archive) {
     Tracer *tracer = (Tracer *)observer;
@@ -207,6 +209,7 @@ static void archive(Observer *observer, Archive *archive) {
     archive_f64(archive, tracer->along, tracer->looking.looks);
     archive_f64(archive, tracer->squares, tracer->looking.looks * SQUARES);
     archive_f64(archive, tracer->passage[0], (size_t)2 * BEGINS);
+    tally_archive_settling(&tracer->settling, archive);
 }
 
 static Status put_curves(const Tracer *tracer, double *values, Results *results, size_t replica) {
@@ -263,6 +266,27 @@ static Status put_passage(const Tracer *tracer, const System *system, Results *r
                                tracer->passage[0]);
 }
 
+// How its step came to be that whose time is the bath's ([GD], their Fig. 2).
+static Status put_settling(const Tracer *tracer, Results *results, size_t replica) {
+    const TracerSettling *settling = &tracer->settling;
+    double cycles[SETTLING_MOST];
+    if (settling->rounds == 0) return OK; // of a method that has no such step
+    for (size_t k = 0; k < settling->rounds; k++) cycles[k] = (double)(k + 1) * settling->cycles;
+    ResultSeries shape = {
+        .unit = "d",
+        .about = "Step of the tracer while it is adjusted, before the stage, against cycles.",
+        .axes = 1,
+        .axis = {{.name = "cycles", .unit = "", .count = settling->rounds, .values = cycles}}};
+    TRY(observer_put_series(&tracer->observer, "tracer_step", &shape, results, replica,
+                            settling->step));
+    shape.unit[0] = '\0';
+    strcpy(shape.about,
+           "What a cycle of the tracer was worth in time over what one of the bath was: "
+           "its step is adjusted until this is 1.");
+    return observer_put_series(&tracer->observer, "tracer_pace", &shape, results, replica,
+                               settling->pace);
+}
+
 static Status write(const Observer *observer, const State *state, Results *results,
                     size_t replica) {
     const Tracer *tracer = (const Tracer *)observer;
@@ -270,6 +294,7 @@ static Status write(const Observer *observer, const State *state, Results *resul
     TRY(NEW_ARRAY(values, (SQUARES + 1) * tracer->looking.looks));
     Status status = put_curves(tracer, values, results, replica);
     if (status == OK) status = put_passage(tracer, &state->system, results, replica);
+    if (status == OK) status = put_settling(tracer, results, replica);
     memory_free(values);
     return status;
 }

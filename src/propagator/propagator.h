@@ -46,8 +46,10 @@ struct PropagatorKind {
     int64_t (*ticks_per_step)(const Settings *settings);
     double (*seconds_per_particle_tick)(const Settings *, const System *); // rough, for `check`
     size_t (*memory)(const System *system);                                // bytes per replica
-    // What follows from the settings for a stage of this time, as lines for `check`; may be NULL.
-    void (*describe)(const Settings *settings, const System *system, double time, Text *lines);
+    // What follows from the settings for a stage of this time, driven like this, as lines for
+    // `check`; may be NULL.
+    void (*describe)(const Settings *settings, const System *system, const Drive *drive,
+                     double time, Text *lines);
 
     // Borrows the state until free. Draws velocities where the state has none (all zero).
     Status (*create)(Propagator **out, const Settings *settings, State *state, RngKey key);

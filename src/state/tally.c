@@ -28,6 +28,15 @@ void tally_add_moves(MoveTally *sum, const MoveTally *more) {
     sum->unhindered += more->unhindered;
 }
 
+void tally_archive_settling(TracerSettling *settling, Archive *archive) {
+    archive_u64(archive, &settling->rounds, 1);
+    archive_require(archive, settling->rounds <= SETTLING_MOST,
+                    "its tracer was adjusted too often");
+    archive_f64(archive, &settling->cycles, 1);
+    archive_f64(archive, settling->step, SETTLING_MOST);
+    archive_f64(archive, settling->pace, SETTLING_MOST);
+}
+
 void tally_archive(Tally *tally, Archive *archive) {
     archive_u64(archive, &tally->collisions, 1);
     archive_f64(archive, &tally->exchange[0][0], 9);

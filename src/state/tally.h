@@ -23,6 +23,18 @@ typedef struct MoveTally {
     uint64_t unhindered; // of a pulled particle: accepted were it not for the force
 } MoveTally;
 
+enum { SETTLING_MOST = 64 };
+
+// How the Monte Carlo step of a pulled tracer was adjusted before its stage, in rounds.
+typedef struct TracerSettling {
+    uint64_t rounds;            // at most SETTLING_MOST, the first
+    double cycles;              // of a round
+    double step[SETTLING_MOST]; // that the tracer had, in d
+    double pace[SETTLING_MOST]; // what its cycle was worth over what the bath's was
+} TracerSettling;
+
+void tally_archive_settling(TracerSettling *settling, Archive *archive);
+
 typedef struct Tally {
     uint64_t collisions;    // pair collisions (each counted once)
     double exchange[3][3];  // sum over collisions of r_a (dp)_b, r = r_i - r_j at contact, dp the
@@ -33,7 +45,8 @@ typedef struct Tally {
     uint64_t replays;       // windows replayed since a particle outran the list
     uint64_t stale;         // predicted events voided by an earlier one
     uint64_t windows;       // windows done
-    MoveTally moves[SPECIES_MOST]; // of Monte Carlo
+    MoveTally moves[SPECIES_MOST];  // of Monte Carlo
+    const TracerSettling *settling; // borrowed from the propagator, which saves it; NULL: none
 } Tally;
 
 // The counters `rebuilds`, `replays` and `stale` are of the machinery, not of the physics: they
