@@ -88,10 +88,17 @@ KERNEL double gap_time(Gap gap) {
     return time > 0 ? time : 0;
 }
 
-KERNEL uint32_t *bucket_of(Engine *engine, double time) {
+KERNEL uint32_t bucket_at(const Engine *engine, double time) {
     const double slice = time * engine->buckets_per_time;
     const uint32_t last = engine->buckets - 1;
-    return &engine->bucket[slice < last ? (uint32_t)slice : last];
+    return slice < last ? (uint32_t)slice : last;
+}
+
+KERNEL void event_link(Engine *engine, uint32_t number) {
+    Event *event = &engine->events[number];
+    uint32_t *bucket = &engine->bucket[bucket_at(engine, event->time)];
+    event->next = *bucket;
+    *bucket = number;
 }
 
 KERNEL void event_put(Engine *engine, double time, uint32_t first, uint32_t second) {
@@ -100,25 +107,25 @@ KERNEL void event_put(Engine *engine, double time, uint32_t first, uint32_t seco
         return;
     }
     const uint32_t number = engine->events_used++;
-    uint32_t *bucket = bucket_of(engine, time);
     engine->events[number] = (Event){.time = time,
                                      .first = first,
                                      .second = second,
-                                     .stamps = engine->stamp[first] + engine->stamp[second],
-                                     .next = *bucket};
-    *bucket = number;
+                                     .stamps = engine->stamp[first] + engine->stamp[second]};
+    event_link(engine, number);
 }
 
 KERNEL void event_drop(Engine *engine, uint32_t *link) {
     *link = engine->events[*link].next;
 }
 
-// A pair becomes an event if it meets between time s and the end of the window.
-KERNEL void predict(const int dimension, const int flight, Engine *engine, uint32_t i, uint32_t j,
-                    double s, Growth growth) {
+// A pair becomes an event if it meets between time s and the end of the window: when, or never.
+KERNEL double predict(const int dimension, const int flight, Engine *engine, uint32_t i, uint32_t j,
+                      double s, Growth growth) {
     const Gap gap = gap_of(dimension, flight, engine, i, j, s, growth);
-    if (!gap_closes(flight, gap, engine->settings.window - s)) return;
-    event_put(engine, s + gap_time(gap), i, j);
+    if (!gap_closes(flight, gap, engine->settings.window - s)) return INFINITY;
+    const double time = s + gap_time(gap);
+    event_put(engine, time, i, j);
+    return time;
 }
 
 KERNEL void predict_all(const int dimension, const int flight, Engine *engine, Growth growth,
@@ -128,8 +135,8 @@ KERNEL void predict_all(const int dimension, const int flight, Engine *engine, G
     size_t hits = 0;
     for (size_t p = 0; p < list->near; p += WIDE) {
         const uint32_t *first = list->near_first + p, *second = list->near_second + p;
-        const Rows i = {engine->sketch, {first, first + HALF}};
-        const Rows j = {engine->sketch, {second, second + HALF}};
+        const Rows i = {engine->sketch, {first, first + HALF}, 1};
+        const Rows j = {engine->sketch, {second, second + HALF}, 1};
         const Wides contact2 = *(const Wides *)(list->near_contact2 + p);
         const unsigned bits = may_meet(dimension, flight == SHEARED, sieve, &i, &j, contact2, NULL);
         wides_pack_u32(list->hit_first + hits, bits, first);
@@ -139,35 +146,6 @@ KERNEL void predict_all(const int dimension, const int flight, Engine *engine, G
     for (size_t h = 0; h < hits; h++) {
         predict(dimension, flight, engine, list->hit_first[h] / row, list->hit_second[h] / row, 0,
                 growth);
-    }
-}
-
-// After a collision at time s: whom do its partners meet in the rest of the window? The neighbours
-// of both are tested at once, those of one in each half of a register.
-KERNEL void predict_both(const int dimension, const int flight, Engine *engine,
-                         const uint32_t slots[2], double s, Growth growth, const Sieve *sieve) {
-    const NeighbourList *list = &engine->list;
-    const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D, none = list->start[engine->count];
-    const float gone = (float)(s * engine->half_per_window);
-    uint32_t own[2][HALF], at[2], end[2];
-    for (int b = 0; b < 2; b++) {
-        for (int k = 0; k < HALF; k++) own[b][k] = slots[b] * row;
-        at[b] = list->start[slots[b]];
-        end[b] = list->start[slots[b] + 1];
-    }
-    const Rows i = {engine->sketch, {own[0], own[1]}};
-    for (; at[0] < end[0] || at[1] < end[1]; at[0] += HALF, at[1] += HALF) {
-        uint32_t from[2];
-        for (int b = 0; b < 2; b++) from[b] = at[b] < end[b] ? at[b] : none;
-        const Wides contact2 =
-            wides_load_halves(list->contact2 + from[0], list->contact2 + from[1]);
-        const Rows j = {engine->sketch, {list->neighbour + from[0], list->neighbour + from[1]}};
-        unsigned bits = may_meet(dimension, flight == SHEARED, sieve, &i, &j, contact2, &gone);
-        for (; bits; bits &= bits - 1) {
-            const int k = __builtin_ctz(bits);
-            predict(dimension, flight, engine, slots[k / HALF], j.half[k / HALF][k % HALF] / row, s,
-                    growth);
-        }
     }
 }
 
@@ -204,13 +182,14 @@ KERNEL void count_overlap(Engine *engine, double r2, double contact2) {
     if (depth > engine->tally.deepest_contact) engine->tally.deepest_contact = depth;
 }
 
-// A particle changes its velocity by `change` at time t, and its virtual origin to match.
-KERNEL void kick(const int dimension, const Engine *engine, uint32_t slot, const double change[3],
-                 double t) {
+// A particle changes its velocity by k r at time t, and its virtual origin to match.
+KERNEL void kick(const int dimension, const Engine *engine, uint32_t slot, double k,
+                 const double r[3], double t) {
     double place[3], velocity[3];
     for (int a = 0; a < dimension; a++) {
-        place[a] = engine->now.place[a][slot] - change[a] * t;
-        velocity[a] = engine->now.velocity[a][slot] + change[a];
+        const double change = k * r[a];
+        place[a] = engine->now.place[a][slot] - change * t;
+        velocity[a] = engine->now.velocity[a][slot] + change;
         engine->now.place[a][slot] = place[a];
         engine->now.velocity[a][slot] = velocity[a];
     }
@@ -250,44 +229,75 @@ KERNEL void exchange_close(const int dimension, const Exchange *sums, Tally *tal
     sum[2][2] = sums->high[1];
 }
 
+// A collision that was carried out: what it changed, and whom its partners may meet after it.
+typedef struct Outcome {
+    uint32_t number; // of the event, of which this is a copy
+    Event event;
+    double place[2][3], velocity[2][3]; // before it
+    double r[3], momentum;              // between the partners, exchanged along r
+    double r2, contact2;
+    uint32_t *may_meet; // a bit for each neighbour, in blocks of those of both
+    uint32_t blocks;    // 0: nobody is left to be looked at
+} Outcome;
+
+KERNEL uint32_t partner(const Outcome *outcome, int p) {
+    return p == 0 ? outcome->event.first : outcome->event.second;
+}
+
+// How a partner comes to it, and how far it got.
+KERNEL void remember(const int dimension, const int flight, Engine *engine, Outcome *outcome,
+                     int p) {
+    const uint32_t slot = partner(outcome, p);
+    const double t = outcome->event.time;
+    double place[3];
+    for (int a = 0; a < dimension; a++) {
+        outcome->place[p][a] = engine->now.place[a][slot];
+        outcome->velocity[p][a] = engine->now.velocity[a][slot];
+        place[a] = outcome->place[p][a] + outcome->velocity[p][a] * t;
+    }
+    watch(dimension, flight, engine, slot, place, t);
+}
+
 // The elastic collision (Weysser, thesis, eq. 2.5, divided by r^2 as it must be): momentum
 // -2 m_i m_j/(m_i + m_j) b r/r^2 goes to i, its mirror image to j; r = r_i - r_j, b = r.v.
-KERNEL void collide(const int dimension, const int flight, Engine *engine, const Event *event,
-                    Growth growth, Exchange *sums) {
-    const Motion *now = &engine->now;
-    const uint32_t slot_i = event->first, slot_j = event->second;
-    const double t = event->time;
-    double r[3], v[3], place_i[3], place_j[3], r2 = 0, b = 0;
-    separate(dimension, flight, engine, slot_i, slot_j, r, v);
+KERNEL void collide(const int dimension, const int flight, Engine *engine, Growth growth,
+                    Outcome *outcome) {
+    const uint32_t slots[2] = {partner(outcome, 0), partner(outcome, 1)};
+    const double t = outcome->event.time;
+    double r[3], v[3], r2 = 0, b = 0;
+    separate(dimension, flight, engine, slots[0], slots[1], r, v);
     for (int a = 0; a < dimension; a++) {
         r[a] += v[a] * t;
         r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
         b = a == 0 ? r[a] * v[a] : b + r[a] * v[a];
-        place_i[a] = now->place[a][slot_i] + now->velocity[a][slot_i] * t;
-        place_j[a] = now->place[a][slot_j] + now->velocity[a][slot_j] * t;
+        outcome->r[a] = r[a];
     }
     const double scale = flight == GROWING ? growth.scale + growth.rate * t : 1;
-    const double contact = (engine->radius[slot_i] + engine->radius[slot_j]) * scale;
+    const double contact = (engine->radius[slots[0]] + engine->radius[slots[1]]) * scale;
     if (flight == GROWING) b -= contact * contact / scale * growth.rate;
-    count_overlap(engine, r2, contact * contact);
-    watch(dimension, flight, engine, slot_i, place_i, t);
-    watch(dimension, flight, engine, slot_j, place_j, t);
 
-    const double mass_i = engine->mass[slot_i], mass_j = engine->mass[slot_j];
-    const double k = -2 * b / (r2 * (mass_i + mass_j));
-    const double k_i = k * mass_j, k_j = -(k * mass_i), momentum = k * mass_j * mass_i;
-    double change_i[3], change_j[3];
-    for (int a = 0; a < dimension; a++) {
-        change_i[a] = k_i * r[a];
-        change_j[a] = k_j * r[a];
+    const double mass[2] = {engine->mass[slots[0]], engine->mass[slots[1]]};
+    const double k = -2 * b / (r2 * (mass[0] + mass[1]));
+    for (int p = 0; p < 2; p++) {
+        remember(dimension, flight, engine, outcome, p);
+        kick(dimension, engine, slots[p], p == 0 ? k * mass[1] : -(k * mass[0]), r, t);
+        engine->stamp[slots[p]]++;
     }
-    exchange_add(dimension, sums, r, momentum);
-    kick(dimension, engine, slot_i, change_i, t);
-    kick(dimension, engine, slot_j, change_j, t);
+    outcome->momentum = k * mass[1] * mass[0];
+    outcome->r2 = r2;
+    outcome->contact2 = contact * contact;
+}
+
+// A collision that stands.
+KERNEL void count_collision(const int dimension, Engine *engine, const Outcome *outcome,
+                            Exchange *sums) {
+    exchange_add(dimension, sums, outcome->r, outcome->momentum);
+    count_overlap(engine, outcome->r2, outcome->contact2);
     engine->tally.collisions++;
-    if (engine->log) record(engine, event);
-    const uint32_t stamp_i = ++engine->stamp[slot_i], stamp_j = ++engine->stamp[slot_j];
-    if (stamp_i > COLLISIONS_MOST || stamp_j > COLLISIONS_MOST) engine->hung = 1;
+    if (engine->log) record(engine, &outcome->event);
+    if (engine->stamp[outcome->event.first] > COLLISIONS_MOST ||
+        engine->stamp[outcome->event.second] > COLLISIONS_MOST)
+        engine->hung = 1;
 }
 
 KERNEL int event_is_void(const Engine *engine, const Event *event) {
@@ -320,18 +330,113 @@ KERNEL uint32_t *earliest(Engine *engine, uint32_t *bucket) {
     return best;
 }
 
+// The number of the earliest event from bucket b on, which is taken out, or NO_EVENT.
+KERNEL uint32_t take_earliest(Engine *engine, uint32_t *b) {
+    for (; *b < engine->buckets; ++*b) {
+        uint32_t *link = earliest(engine, &engine->bucket[*b]);
+        if (!link) continue;
+        const uint32_t number = *link;
+        event_drop(engine, link);
+        return number;
+    }
+    return NO_EVENT;
+}
+
+// As if the collision had not been; it is an event again.
+KERNEL void take_back(const int dimension, Engine *engine, const Outcome *outcome) {
+    for (int p = 0; p < 2; p++) {
+        const uint32_t slot = partner(outcome, p);
+        for (int a = 0; a < dimension; a++) {
+            engine->now.place[a][slot] = outcome->place[p][a];
+            engine->now.velocity[a][slot] = outcome->velocity[p][a];
+        }
+        sketch_one(dimension, engine, slot, outcome->place[p], outcome->velocity[p]);
+        engine->stamp[slot]--;
+    }
+    event_link(engine, outcome->number);
+}
+
+// Whom may the partners meet in the rest of the window? The neighbours of both are tested at once,
+// those of one in each half of a register.
+KERNEL void look_round(const int dimension, const int flight, const Engine *engine,
+                       const Sieve *sieve, Outcome *outcome) {
+    const NeighbourList *list = &engine->list;
+    const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D, none = list->start[engine->count];
+    const uint32_t slots[2] = {partner(outcome, 0), partner(outcome, 1)};
+    const uint32_t own[2] = {slots[0] * row, slots[1] * row};
+    const float gone = (float)(outcome->event.time * engine->half_per_window);
+    const Rows i = {engine->sketch, {&own[0], &own[1]}, 0};
+    uint32_t at[2] = {list->start[slots[0]], list->start[slots[1]]};
+    const uint32_t end[2] = {list->start[slots[0] + 1], list->start[slots[1] + 1]};
+    uint32_t blocks = 0;
+    for (; at[0] < end[0] || at[1] < end[1]; at[0] += HALF, at[1] += HALF) {
+        uint32_t from[2];
+        for (int b = 0; b < 2; b++) from[b] = at[b] < end[b] ? at[b] : none;
+        const Wides contact2 =
+            wides_load_halves(list->contact2 + from[0], list->contact2 + from[1]);
+        const Rows j = {engine->sketch, {list->neighbour + from[0], list->neighbour + from[1]}, 1};
+        outcome->may_meet[blocks++] =
+            may_meet(dimension, flight == SHEARED, sieve, &i, &j, contact2, &gone);
+    }
+    outcome->blocks = blocks;
+}
+
+// Is a slot a partner of this one?
+KERNEL int takes_part(const Outcome *outcome, uint32_t slot) {
+    return (slot == outcome->event.first) | (slot == outcome->event.second);
+}
+
+// The events that follow from a collision. The one after it, if any, was carried out meanwhile:
+// does it stand? It is taken back where an event comes before it, and where one of its partners is
+// among those that are to be looked at as they were.
+KERNEL int follow(const int dimension, const int flight, Engine *engine, Growth growth,
+                  Outcome *outcome, const Outcome *next) {
+    const NeighbourList *list = &engine->list;
+    const uint32_t shift = dimension == 2 ? 2 : 3;
+    int stands = next->number != NO_EVENT;
+    for (uint32_t block = 0; block < outcome->blocks; block++) {
+        for (unsigned bits = outcome->may_meet[block]; bits; bits &= bits - 1) {
+            const int k = __builtin_ctz(bits);
+            const uint32_t i = partner(outcome, k / HALF);
+            const uint32_t at = list->start[i] + block * HALF + (uint32_t)k % HALF;
+            const uint32_t j = list->neighbour[at] >> shift;
+            const int disturbed = stands && takes_part(next, j);
+            if (disturbed) take_back(dimension, engine, next);
+            const double time =
+                predict(dimension, flight, engine, i, j, outcome->event.time, growth);
+            const int overtaken = stands && !disturbed && time <= next->event.time;
+            if (overtaken) take_back(dimension, engine, next);
+            if (disturbed | overtaken) stands = 0;
+        }
+    }
+    outcome->blocks = 0;
+    return stands;
+}
+
+// In order, but what follows from a collision is found out while the next one is on its way: the
+// processor would otherwise have to guess whether anything does, and wait for the answer. That one
+// is almost always right, and else taken back.
 KERNEL void carry_out(const int dimension, const int flight, Engine *engine, Growth growth,
                       const Sieve *sieve) {
     Exchange sums = exchange_open(dimension, &engine->tally);
-    for (uint32_t b = 0; b < engine->buckets && !engine->hung; b++) {
-        uint32_t *link;
-        while (engine->bucket[b] != NO_EVENT && (link = earliest(engine, &engine->bucket[b]))) {
-            const Event event = engine->events[*link];
-            event_drop(engine, link);
-            collide(dimension, flight, engine, &event, growth, &sums);
-            if (engine->hung) break;
-            const uint32_t slots[2] = {event.first, event.second};
-            predict_both(dimension, flight, engine, slots, event.time, growth, sieve);
+    Outcome outcomes[2] = {{.may_meet = engine->list.hit_first},
+                           {.may_meet = engine->list.hit_second}};
+    Outcome *last = &outcomes[0], *next = &outcomes[1];
+    for (uint32_t b = 0; !engine->hung;) {
+        next->number = take_earliest(engine, &b);
+        if (next->number == NO_EVENT && last->blocks == 0) break;
+        if (next->number != NO_EVENT) {
+            next->event = engine->events[next->number];
+            collide(dimension, flight, engine, growth, next);
+            look_round(dimension, flight, engine, sieve, next);
+        }
+        if (follow(dimension, flight, engine, growth, last, next)) {
+            count_collision(dimension, engine, next, &sums);
+            Outcome *const other = last;
+            last = next;
+            next = other;
+        } else {
+            b = bucket_at(engine, last->event.time);
         }
     }
     exchange_close(dimension, &sums, &engine->tally);

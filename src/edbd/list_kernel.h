@@ -77,8 +77,8 @@ KERNEL void prune_pairs_in(const int dimension, const int sheared, Engine *engin
     size_t near = 0;
     for (size_t p = 0; p < list->pairs; p += WIDE) {
         const uint32_t *first = list->first + p, *second = list->second + p;
-        const Rows i = {own.sketch, {first, first + HALF}};
-        const Rows j = {own.sketch, {second, second + HALF}};
+        const Rows i = {own.sketch, {first, first + HALF}, 1};
+        const Rows j = {own.sketch, {second, second + HALF}, 1};
         const Wides contact2 = *(const Wides *)(list->pair_contact2 + p);
         const Wides range = wides_sqrt(contact2) * (float)(own.scale * ROUNDED_UP) + skin;
         const unsigned bits =

@@ -21,10 +21,11 @@ enum { HALF = WIDE / 2 };
 typedef struct Rows {
     const float *sketch;
     const uint32_t *half[2]; // where the rows of each half begin
+    int step;                // 0: one row for all of a half
 } Rows;
 
 KERNEL const float *row_of(const Rows *rows, int k) {
-    return rows->sketch + rows->half[k / HALF][k % HALF];
+    return rows->sketch + rows->half[k / HALF][k % HALF * rows->step];
 }
 
 // The image of r that is nearest, and the same image of g.
