@@ -43,7 +43,9 @@ static Status allocate_slots(Engine *engine) {
     }
     for (int a = 0; a <= engine->dimension; a++) {
         TRY(NEW_ARRAY(engine->column[a], slots + BLOCK));
+        TRY(NEW_ARRAY(engine->lined[a], slots + 2 * BLOCK));
     }
+    TRY(NEW_ARRAY(engine->lined_row, slots + 2 * BLOCK));
     return OK;
 }
 
@@ -190,7 +192,11 @@ void engine_free(Engine *engine) {
     memory_free(engine->thermal);
     memory_free(engine->thermal_of);
     memory_free(engine->stamp);
-    for (int a = 0; a < 4; a++) memory_free(engine->column[a]);
+    for (int a = 0; a < 4; a++) {
+        memory_free(engine->column[a]);
+        memory_free(engine->lined[a]);
+    }
+    memory_free(engine->lined_row);
     for (int a = 0; a < 3; a++) {
         memory_free(engine->normals[a]);
         memory_free(engine->snapshot.image[a]);
@@ -456,9 +462,9 @@ size_t engine_memory(const System *system) {
     // Typical of dense fluids: pairs in the half list, neighbours padded to whole blocks.
     static const double pairs[2] = {3.5, 6.5}, neighbours[2] = {8, 16};
     const int three = system->dimension == 3;
-    const double axes = 6 * sizeof(double) + 3 * sizeof(uint32_t); // of each
+    const double axes = 6 * sizeof(double) + 4 * sizeof(uint32_t); // of each
     const double arrays = (double)system->dimension * axes + 4 * sizeof(double) +
-                          ((three ? ROW_3D : ROW_2D) + 9) * sizeof(uint32_t) + sizeof(Event);
+                          ((three ? ROW_3D : ROW_2D) + 11) * sizeof(uint32_t) + sizeof(Event);
     const double lists = pairs[three] * (6 * sizeof(uint32_t) + 2 * sizeof(float)) +
                          neighbours[three] * (sizeof(uint32_t) + sizeof(float));
     const double spare = 1.125; // room that lists grow by

@@ -116,16 +116,18 @@ struct Engine {
     float sketch_error; // and the product of two distances
     uint32_t *id;       // [slots] of each
     uint32_t *spare_id;
-    double *radius;     // [slots]
-    double *mass;       // [slots]
-    float *normals[3];  // [slots]
-    float *column[4];   // [slots + BLOCK] scratch while listing: places and radii
-    double *thermal;    // [slots] 1/sqrt(mass)
-    uint32_t *stamp;    // [slots] collisions of each in this window
-    double *thermal_of; // [count] the same, by id
-    double largest;     // diameter
-    double fastest;     // thermal velocity, and that of the flow across a diameter
-    double margin;      // the list is rebuilt when this is left of its reach, in d
+    double *radius;      // [slots]
+    double *mass;        // [slots]
+    float *normals[3];   // [slots]
+    float *column[4];    // [slots + BLOCK] scratch while listing: places and radii,
+    float *lined[4];     // [slots + 2 BLOCK] and those of the candidates of a cell,
+    uint32_t *lined_row; // [slots + 2 BLOCK] with where their sketches begin
+    double *thermal;     // [slots] 1/sqrt(mass)
+    uint32_t *stamp;     // [slots] collisions of each in this window
+    double *thermal_of;  // [count] the same, by id
+    double largest;      // diameter
+    double fastest;      // thermal velocity, and that of the flow across a diameter
+    double margin;       // the list is rebuilt when this is left of its reach, in d
 
     NeighbourList list;
     uint32_t *cell_of;    // [count]

@@ -126,6 +126,10 @@ KERNEL Wides wides_load_at(const float *from) { // at any address
     return wides;
 }
 
+KERNEL void wides_store_at(float *to, Wides wides) {
+    memcpy(to, &wides, sizeof wides);
+}
+
 KERNEL Wides wides_sqrt(Wides x) {
 #if LANES == 8
     return (Wides)_mm512_sqrt_ps((__m512)x);

@@ -9,14 +9,37 @@
 
 static const double ROUNDED_UP = 1 + 1e-6; // for contact distances kept in single precision
 
-// Which of the candidates from slot `from` on are near `slot`, one bit each. Places and radii are
-// in single precision, so a few more are found than are near.
+// Candidates of a cell side by side, whatever spans they come from, and after them some that are
+// near to nobody. Returns how many there are.
+KERNEL uint32_t line_up(const int dimension, const Engine *engine, const Span *spans, int count) {
+    static const float FAR_AWAY = 1e15F;
+    const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D;
+    uint32_t lined = 0;
+    for (int s = 0; s < count; s++) {
+        for (uint32_t from = spans[s].from; from < spans[s].to; from += WIDE) {
+            const uint32_t to = lined + from - spans[s].from;
+            for (int a = 0; a <= dimension; a++) {
+                wides_store_at(engine->lined[a] + to, wides_load_at(engine->column[a] + from));
+            }
+            wides_pack_numbers(engine->lined_row + to, (1u << WIDE) - 1, from * row, row);
+        }
+        lined += spans[s].to - spans[s].from;
+    }
+    for (int a = 0; a <= dimension; a++) {
+        wides_store_at(engine->lined[a] + lined, wides_all(a < dimension ? FAR_AWAY : 0));
+    }
+    return lined;
+}
+
+// Which of the candidates from `from` on are near `slot`, one bit each. Places and radii are in
+// single precision, so a few more are found than are near.
 KERNEL unsigned near_slots(const int dimension, const int sheared, const Engine *engine,
-                           uint32_t slot, uint32_t from, uint32_t to, Wides *contact2) {
+                           uint32_t slot, uint32_t from, Wides *contact2) {
     const float *const *column = (const float *const *)engine->column;
+    const float *const *lined = (const float *const *)engine->lined;
     const float skin = (float)(engine->list.skin * ROUNDED_UP + engine->place_error);
     Wides r[3], r2 = {0};
-    for (int a = 0; a < dimension; a++) r[a] = column[a][slot] - wides_load_at(column[a] + from);
+    for (int a = 0; a < dimension; a++) r[a] = column[a][slot] - wides_load_at(lined[a] + from);
     if (sheared)
         r[0] = wides_lean(r[0], r[1], wides_all((float)engine->edge[1] * 0.5f),
                           wides_all((float)engine->offset));
@@ -24,40 +47,33 @@ KERNEL unsigned near_slots(const int dimension, const int sheared, const Engine 
         r[a] = wides_nearest(r[a], wides_all((float)engine->edge[a]));
         r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
     }
-    const Wides contact = column[dimension][slot] + wides_load_at(column[dimension] + from);
+    const Wides contact = column[dimension][slot] + wides_load_at(lined[dimension] + from);
     const Wides range = contact * (float)(engine->scale * ROUNDED_UP) + skin;
     *contact2 = contact * contact;
-    const unsigned bits = wides_less(r2, range * range);
-    return to - from < WIDE ? bits & ((1u << (to - from)) - 1) : bits;
-}
-
-// Adds the pairs of `slot` with the candidates of a span to the half list.
-KERNEL void pair_span(const int dimension, const int sheared, Engine *engine, uint32_t slot,
-                      Span span) {
-    NeighbourList *list = &engine->list;
-    const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D;
-    for (uint32_t from = span.from; from < span.to; from += WIDE) {
-        Wides contact2;
-        const unsigned bits =
-            near_slots(dimension, sheared, engine, slot, from, span.to, &contact2);
-        wides_pack_numbers(list->second + list->pairs, bits, from * row, row);
-        wides_pack(list->pair_contact2 + list->pairs, bits, contact2);
-        for (int k = 0; k < WIDE; k++) list->first[list->pairs + (size_t)k] = slot * row;
-        list->pairs += (unsigned)__builtin_popcount(bits);
-    }
+    return wides_less(r2, range * range);
 }
 
 // The pairs of the particles of a cell with those after them in it and in the cells after it, of
 // which spans[0] begins with the cell itself.
 KERNEL void pair_cell_in(const int dimension, const int sheared, Engine *engine, size_t cell,
                          const Span *spans, int count) {
-    Engine own = *engine; // a copy, which what is written to the list cannot be: see run()
-    for (uint32_t slot = own.cell_start[cell]; slot < own.cell_start[cell + 1]; slot++) {
-        own.list.pair_start[slot] = (uint32_t)own.list.pairs;
-        pair_span(dimension, sheared, &own, slot, (Span){slot + 1, spans[0].to});
-        for (int s = 1; s < count; s++) pair_span(dimension, sheared, &own, slot, spans[s]);
+    const Engine own = *engine; // a copy, which what is written to the list cannot be: see run()
+    const NeighbourList *list = &own.list;
+    const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D, begin = own.cell_start[cell];
+    const uint32_t lined = line_up(dimension, &own, spans, count);
+    size_t pairs = list->pairs;
+    for (uint32_t slot = begin; slot < own.cell_start[cell + 1]; slot++) {
+        list->pair_start[slot] = (uint32_t)pairs;
+        for (uint32_t from = slot - begin + 1; from < lined; from += WIDE) {
+            Wides contact2;
+            const unsigned bits = near_slots(dimension, sheared, &own, slot, from, &contact2);
+            wides_pack_u32(list->second + pairs, bits, own.lined_row + from);
+            wides_pack(list->pair_contact2 + pairs, bits, contact2);
+            for (int k = 0; k < WIDE; k++) list->first[pairs + (size_t)k] = slot * row;
+            pairs += (unsigned)__builtin_popcount(bits);
+        }
     }
-    engine->list.pairs = own.list.pairs;
+    engine->list.pairs = pairs;
 }
 
 KERNEL void pair_cell(const int dimension, Engine *engine, size_t cell, const Span *spans,
