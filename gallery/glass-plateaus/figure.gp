@@ -1,4 +1,4 @@
-# Correlators at 0.79, with the plateaus of the thesis at its time, and X, which would be one curve.
+# Correlators at 0.79, with the plateaus of the thesis at its time; below, one against the other.
 load "style.gp"
 set terminal svg size 640,760 enhanced font "sans-serif,14" background "white"
 waves = "4.5 6.06 8 10.06"
