@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A tracer pulled through hard spheres by Monte Carlo against velocities found by an independent
-// event-driven program, in which the drift is added to the thermostat. Fixed seeds.
+// A tracer pulled through hard spheres, by Monte Carlo and by event-driven dynamics, against
+// velocities found by an independent event-driven program and against each other. Fixed seeds.
 #include "simulate.h"
 
 #include <stdlib.h>
@@ -35,9 +35,33 @@ static Plan *pulled_plan(double packing_fraction, double peclet, double step, do
     return plan;
 }
 
+// The same by event-driven dynamics.
+static Plan *event_driven_plan(double packing_fraction, double peclet, double interval,
+                               double period, double trajectories) {
+    Plan *plan = pulled_plan(packing_fraction, peclet, 0.02, period, trajectories);
+    Dynamics *dynamics = &plan->stages[1].dynamics;
+    dynamics->kind = &propagator_event_driven;
+    dynamics->settings = settings_of(&propagator_event_driven.options);
+    set_number(&dynamics->settings, &propagator_event_driven.options, "thermostat_interval",
+               interval);
+    return plan;
+}
+
 // What the clock leaves at the longer of the steps: at 0.05 the friction is 6 % too large, and the
 // error is linear in the step.
 static const double STEP_ERROR = 0.024;
+
+// The rounds in which the tracer's step is found: the last of them leave it on the bath's clock.
+static void check_settling(const Results *results) {
+    const size_t rounds = 8; // 4000 cycles of calibration
+    ck_assert_uint_eq(series_of(results, "measured", "tracer_pace")->size, rounds);
+    ck_assert_uint_eq(series_of(results, "measured", "tracer_step")->size, rounds);
+    const Estimate pace = measured_at(results, "tracer_pace", rounds - 1);
+    const Estimate before = measured_at(results, "tracer_step", rounds - 2);
+    const Estimate step = measured_at(results, "tracer_step", rounds - 1);
+    ck_assert_double_eq_tol(pace.value, 1, 0.05);
+    ck_assert_double_eq_tol(step.value / before.value, 1, 0.02);
+}
 
 // v/v_free: 0.928(5) at packing fraction 0.05 and Pe = 5, 0.727(4) at 0.2 and 20.
 START_TEST(friction_is_that_of_event_driven_dynamics) {
@@ -55,7 +79,48 @@ START_TEST(friction_is_that_of_event_driven_dynamics) {
                   0.04);
     ck_assert_double_eq_tol(velocity.value * friction.value, 2 * cases[_i].peclet,
                             0.02 * cases[_i].peclet); // D F; the jackknife of each is its own
+    check_settling(results);
     results_free(results);
+}
+END_TEST
+
+// Our own event-driven dynamics against that program, at an interval twice the usual one.
+START_TEST(friction_is_that_of_another_event_driven_program) {
+    static const struct {
+        double packing_fraction, peclet, period, trajectories, velocity, known;
+    } cases[] = {{0.05, 5, 2.5, 24, 0.928, 0.005}, {0.2, 20, 0.5, 10, 0.727, 0.004}};
+    Results *results = simulate(event_driven_plan(cases[_i].packing_fraction, cases[_i].peclet,
+                                                  0.02, cases[_i].period, cases[_i].trajectories));
+    const double expected = 1 / cases[_i].velocity;
+    expect_within("effective friction", measured(results, "effective_friction"), expected,
+                  cases[_i].known / cases[_i].velocity * expected, 3, 0.04);
+    ck_assert_ptr_null(results_find_series(results, "measured", "tracer_pace"));
+    results_free(results);
+}
+END_TEST
+
+// Of simulate, with the friction alone.
+static Estimate friction_of(Plan *plan) {
+    Results *results = simulate(plan);
+    const Estimate friction = measured(results, "effective_friction");
+    results_free(results);
+    return friction;
+}
+
+// A strong force: drifted trials, extrapolated in the step by a straight line, against event-driven
+// dynamics.
+START_TEST(both_methods_feel_the_same_friction) {
+    const double packing_fraction = 0.3, peclet = 50, period = 0.25, trajectories = 10;
+    const Estimate known =
+        friction_of(event_driven_plan(packing_fraction, peclet, 0.02, period, trajectories));
+    const Estimate coarse =
+        friction_of(pulled_plan(packing_fraction, peclet, 0.01, period, trajectories));
+    const Estimate fine =
+        friction_of(pulled_plan(packing_fraction, peclet, 0.005, period, trajectories));
+    Estimate straight = fine;
+    straight.value = 2 * fine.value - coarse.value;
+    straight.error = hypot(2 * fine.error, coarse.error);
+    expect_within("friction at no step", straight, known.value, known.error, 3, 0.08);
 }
 END_TEST
 
@@ -98,6 +163,8 @@ END_TEST
 int main(void) {
     Suite *suite = suite_create("a pulled tracer");
     ADD_CASE(suite, friction_is_that_of_event_driven_dynamics, 2);
+    ADD_CASE(suite, friction_is_that_of_another_event_driven_program, 2);
+    ADD_CASE(suite, both_methods_feel_the_same_friction, 1);
     ADD_CASE(suite, nothing_is_in_front_without_a_force, 1);
     ADD_CASE(suite, a_strong_force_leaves_a_wake, 1);
     return run_suite(suite) ? EXIT_FAILURE : EXIT_SUCCESS;
