@@ -108,8 +108,10 @@ static Status check(const Settings *settings, const System *system, const Clock 
     return status_fail(
         BAD_DATA,
         "pulled_tracer: a trajectory may be over in %.2g looks, too few to follow the "
-        "tracer; make the period longer, looks more or the step smaller",
-        looking.whole);
+        "tracer; %s",
+        looking.whole,
+        clock->whole_steps ? "run again with a smaller trajectory.every"
+                           : "make the period longer, looks more or the step smaller");
 }
 
 static void discard(Observer *observer) {
