@@ -124,6 +124,18 @@ const char *flow_words(char words[FLOW_WORDS_SIZE], const Flow *flow) {
     return words;
 }
 
+const char *drive_words(char words[DRIVE_WORDS_SIZE], const Drive *drive) {
+    const unsigned kinds = drive_kinds(drive);
+    const Pull *pull = &drive->pull;
+    words[0] = '\0';
+    if (kinds & DRIVE_FLOW) return flow_words(words, &drive->flow);
+    if (kinds & DRIVE_PULL)
+        snprintf(words, DRIVE_WORDS_SIZE, "pull = {species: %s, peclet: %g, axis: %s, clock: %s}",
+                 pull->species, pull->peclet, drive_pull_axes[pull->axis],
+                 drive_pull_clocks[pull->clock]);
+    return words;
+}
+
 static Status check_table(const OptionReals *times, const OptionReals *rates) {
     if (times->count != rates->count)
         return status_fail(BAD_DATA, "shear_table = {...}: %d times and %d rates; give one of each",

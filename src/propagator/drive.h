@@ -55,6 +55,10 @@ enum { FLOW_WORDS_SIZE = 96 };
 // As in the run file, for sentences: "shear_rate = 0.02".
 const char *flow_words(char words[FLOW_WORDS_SIZE], const Flow *flow);
 
+enum { DRIVE_WORDS_SIZE = FLOW_WORDS_SIZE + OPTION_TEXT_SIZE };
+// Likewise of whatever drives; "" at rest.
+const char *drive_words(char words[DRIVE_WORDS_SIZE], const Drive *drive);
+
 extern const char *const drive_pull_axes[],
     *const drive_pull_clocks[]; // words of the run file, NULL-ended
 

@@ -88,13 +88,15 @@ static Status put_mixture(Results *results, const System *system) {
     return status;
 }
 
-// "settle: newtonian, 200 d sqrt(m/kT); quiescent: event-driven, 10 d^2/D0"
+// "settle: newtonian, 200 d sqrt(m/kT); sheared: event-driven, 10 d^2/D0, shear_rate = 1"
 static Status put_stages(Results *results, const Plan *plan) {
     Text words = {0};
     for (size_t s = 0; s < plan->stage_count; s++) {
         const Stage *stage = &plan->stages[s];
         text_add(&words, "%s%s: %s, %.6g %s", s ? "; " : "", stage->name,
                  stage->dynamics.kind->name, stage_time(stage), stage->dynamics.kind->time_unit);
+        const char *drive = drive_words((char[DRIVE_WORDS_SIZE]){0}, &stage->drive);
+        if (drive[0]) text_add(&words, ", %s", drive);
     }
     const Status status = results_put_fact(results, "stages", text_words(&words));
     text_free(&words);
