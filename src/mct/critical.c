@@ -33,6 +33,7 @@ typedef struct Search {
     Model *model;
     Stability stability;
     double *form;
+    double form_of;               // packing fraction of the glass that it is of; 0: of none
     double low;                   // the densest fluid known
     double high, s;               // the glass seen last
     double high_before, s_before; // and the one before it; 0: none
@@ -90,10 +91,14 @@ static Status look(Search *search, double packing_fraction, bool *glass) {
     const Structure *structure = NULL;
     TRY(oz_solve(search->oz, packing_fraction, &structure));
     model_set(search->model, structure);
-    memcpy(search->form, search->model->factor, search->model->size * sizeof(double));
+    // From above: the form factors of a denser glass, or S.
+    if (packing_fraction > search->form_of)
+        memcpy(search->form, search->model->factor, search->model->size * sizeof(double));
+    search->form_of = packing_fraction;
     TRY(glass_form_factors(search->model, search->form, glass));
     search->evaluations++;
     if (!*glass) {
+        search->form_of = 0;
         search->low = fmax(search->low, packing_fraction);
         return OK;
     }

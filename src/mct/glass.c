@@ -10,7 +10,7 @@
 #include <string.h>
 
 static const double GONE = 1e-3;       // largest F/S below which there is no glass
-static const double CONVERGED = 1e-12; // change of F/S in an iteration
+static const double CONVERGED = 1e-11; // change of F/S in an iteration
 static const double SETTLED = 0.02;    // of the contraction: change at which it is used to leap
 enum { ITERATIONS_MOST = 400000, LEAP_EVERY = 12, POWER_MOST = 20000 };
 

@@ -35,7 +35,7 @@ static const double Q_NEWTON = 40; // the derivatives of Newton's method leave o
 
 static const double CONVERGED = 1e-9; // of h + 1; rounding leaves 1e-10
 // Packing fractions: the steps by which solutions are followed, below and above DILUTE.
-static const double DILUTE = 0.5, LONG_STEP = 0.25, SHORT_STEP = 0.05;
+static const double DILUTE = 0.5, LONG_STEP = 0.25, SHORT_STEP = 0.08;
 static const double CLOSE = 1e-9; // of breakpoints: the same
 
 struct Discs {
@@ -448,6 +448,19 @@ static Status fill_excess(Discs *discs, const Densities *densities, const double
     return OK;
 }
 
+// sum[i] += sum_k factor[k step] rows[k][i], k over the wave numbers of a panel, so that `sum` is
+// read and written once for all of them.
+static void add_panel(double *sum, const double *factor, size_t step, const double *rows,
+                      size_t stride, size_t count) {
+    const double f0 = factor[0], f1 = factor[step], f2 = factor[2 * step], f3 = factor[3 * step];
+    const double f4 = factor[4 * step];
+    const double *r0 = rows, *r1 = r0 + stride, *r2 = r1 + stride, *r3 = r2 + stride;
+    const double *r4 = r3 + stride;
+    _Static_assert(Q_POINTS == 5, "the sum below has a term for each");
+    for (size_t i = 0; i < count; i++)
+        sum[i] += (f0 * r0[i] + f1 * r1[i]) + (f2 * r2[i] + f3 * r3[i]) + f4 * r4[i];
+}
+
 static void add_lenses(const Discs *discs, const Densities *densities, const double *contact,
                        size_t a, size_t b, double *residual) {
     const size_t pair = mixture_pair(densities->species, a, b);
@@ -470,11 +483,9 @@ static void fill_residual(Discs *discs, const Densities *densities, const double
         residual[i] = 1 + dot(discs->value + i * discs->basis, coefficient, inside);
     }
     add_lenses(discs, densities, contact, a, b, residual);
-    for (size_t k = 0; k < discs->waves; k++) {
-        const double excess = discs->excess[pair * discs->waves + k];
-        const double *back = discs->back + k * discs->basis;
-        for (size_t i = 0; i < inside; i++) residual[i] += excess * back[i];
-    }
+    const double *excess = discs->excess + pair * discs->waves;
+    for (size_t k = 0; k < discs->waves; k += Q_POINTS)
+        add_panel(residual, excess + k, 1, discs->back + k * discs->basis, discs->basis, inside);
 }
 
 static Status fill_residuals(Discs *discs, const Densities *densities, double *largest) {
@@ -515,16 +526,16 @@ static void fill_block(Discs *discs, size_t row, size_t column, const double *co
         for (size_t n = 0; n < columns; n++)
             weighed[k * discs->basis + n] = coupling[k] * discs->transform[k * discs->basis + n];
     }
-    const gsl_matrix_const_view back =
-        gsl_matrix_const_view_array_with_tda(discs->back, discs->newton_waves, rows, discs->basis);
-    const gsl_matrix_const_view forth =
-        gsl_matrix_const_view_array_with_tda(weighed, discs->newton_waves, columns, discs->basis);
-    gsl_matrix_view block =
-        gsl_matrix_submatrix(discs->newton, discs->first[row], discs->first[column], rows, columns);
-    gsl_blas_dgemm(CblasTrans, CblasNoTrans, 1, &back.matrix, &forth.matrix, 0, &block.matrix);
-    for (size_t i = 0; row == column && i < rows; i++) {
+    for (size_t i = 0; i < rows; i++) {
+        double *block = gsl_matrix_ptr(discs->newton, discs->first[row] + i, discs->first[column]);
         for (size_t n = 0; n < columns; n++)
-            *gsl_matrix_ptr(&block.matrix, i, n) += discs->value[i * discs->basis + n];
+            block[n] = row == column ? discs->value[i * discs->basis + n] : 0;
+    }
+    for (size_t k = 0; k < discs->newton_waves; k += Q_POINTS) {
+        for (size_t i = 0; i < rows; i++)
+            add_panel(gsl_matrix_ptr(discs->newton, discs->first[row] + i, discs->first[column]),
+                      discs->back + k * discs->basis + i, discs->basis, weighed + k * discs->basis,
+                      discs->basis, columns);
     }
 }
 
