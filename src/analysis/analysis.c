@@ -8,27 +8,6 @@
 #include <stdio.h>
 #include <string.h>
 
-Status derive_theory(Results *results, const char *stage, const System *system) {
-    if (!equation_of_state_known(system)) return OK;
-    const EquationOfState theory = equation_of_state(system);
-    const double pressure = system_number_density(system) * theory.compressibility_factor;
-    const char *unit = system->dimension == 2 ? "kT/d^2" : "kT/d^3";
-    char of_factor[RESULT_TEXT], of_pressure[RESULT_TEXT];
-    snprintf(of_factor, sizeof of_factor, "P V/(N kT) of the equation of state: %s.", theory.name);
-    snprintf(of_pressure, sizeof of_pressure, "P of the equation of state: %s.", theory.name);
-    for (size_t replica = 0; replica < results->replicas; replica++) {
-        TRY(results_put_scalar(results, stage, "compressibility_factor_theory", "", of_factor,
-                               replica, theory.compressibility_factor));
-        TRY(results_put_scalar(results, stage, "pressure_theory", unit, of_pressure, replica,
-                               pressure));
-    }
-    return OK;
-}
-
-static Status theory_beside(Results *results, const ResultSeries *series, const System *system) {
-    return derive_theory(results, series->stage, system);
-}
-
 // What is made of a series of this name: a row after the other, with the system or without.
 static const struct {
     const char *observable;
@@ -44,15 +23,12 @@ static const struct {
     {"orientation_correlation", .alone = derive_relaxation},
     {"orientation_correlation", .with = derive_free_bodies},
     {"contact_distribution", .alone = derive_contact},
-    {"contact_distribution", .with = theory_beside},
     {"virtual_compression", .with = derive_compression},
-    {"virtual_compression", .with = theory_beside},
     {"structure_factor_stretches", .alone = derive_structure_peak},
     {"structure_peak", .alone = derive_drift},
     {"energy", .alone = derive_drift},
     {"bond_order", .alone = derive_drift},
     {"pressure", .alone = derive_drift},
-    {"pressure", .with = theory_beside},
     {"self_scattering", .alone = derive_factorisation},
     {"self_scattering", .alone = derive_kohlrausch},
     {"self_scattering", .alone = derive_scaled},
@@ -100,6 +76,37 @@ static Status derive_from(Results *results, size_t index, const System *system) 
         if (most > 0 && series->axes > most) continue;
         TRY(derivations[i].alone ? derivations[i].alone(results, series)
                                  : derivations[i].with(results, series, system));
+    }
+    return OK;
+}
+
+static Status put_equation(Results *results, const char *stage, const System *system) {
+    const EquationOfState theory = equation_of_state(system);
+    const double pressure = system_number_density(system) * theory.compressibility_factor;
+    const char *unit = system->dimension == 2 ? "kT/d^2" : "kT/d^3";
+    char of_factor[RESULT_TEXT], of_pressure[RESULT_TEXT];
+    snprintf(of_factor, sizeof of_factor, "P V/(N kT) of the equation of state: %s.", theory.name);
+    snprintf(of_pressure, sizeof of_pressure, "P of the equation of state: %s.", theory.name);
+    for (size_t replica = 0; replica < results->replicas; replica++) {
+        TRY(results_put_scalar(results, stage, "compressibility_factor_theory", "", of_factor,
+                               replica, theory.compressibility_factor));
+        TRY(results_put_scalar(results, stage, "pressure_theory", unit, of_pressure, replica,
+                               pressure));
+    }
+    return OK;
+}
+
+Status analysis_equation(Results *results, const Plan *plan) {
+    static const char *const PRESSURES[] = {"pressure", "contact_distribution",
+                                            "virtual_compression"};
+    if (!equation_of_state_known(&plan->system)) return OK;
+    for (size_t s = 0; s < plan->stage_count; s++) {
+        const Stage *stage = &plan->stages[s];
+        bool measured = false;
+        for (size_t i = 0; i < sizeof PRESSURES / sizeof *PRESSURES; i++)
+            measured = measured || results_find_series(results, stage->name, PRESSURES[i]);
+        const bool driven = drive_kinds(&stage->drive) != 0; // out of equilibrium
+        if (measured && !driven) TRY(put_equation(results, stage->name, &plan->system));
     }
     return OK;
 }

@@ -18,7 +18,6 @@
 //   free_orientation_correlation, a series                        of orientation_correlation
 //   contact_value_A_B, compressibility_factor_contact             of contact_distribution
 //   compressibility_factor_compression, pressure_compression      of virtual_compression
-//   compressibility_factor_theory, pressure_theory                hard discs and spheres only
 //   structure_peak, a series, and structure_peak_wave_number      of structure_factor_stretches
 //   structure_peak_drift, pressure_drift, energy_drift, bond_order_local_drift, _global_drift
 //                                                                 of these in blocks
@@ -45,6 +44,10 @@ Status analysis_derive(Results *results, const System *system);
 // collective_scattering_centred, functions about the centre of mass, and all that is made of
 // scattering functions for them. After analysis_derive.
 Status analysis_centre(Results *results, const Plan *plan);
+
+// compressibility_factor_theory and pressure_theory, by the equation of state of hard discs or
+// spheres, of the stages at rest that measured a pressure in some way.
+Status analysis_equation(Results *results, const Plan *plan);
 
 // Whether the stages at rest were in equilibrium: the scalar relaxation_share, a fact "equilibrium
 // of STAGE" in words and, among the health, bond_order_of_STAGE and structure_peak_rise_of_STAGE.

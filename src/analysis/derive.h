@@ -24,7 +24,6 @@ Status derive_free_displacement(Results *results, const ResultSeries *displaceme
 Status derive_free_bodies(Results *results, const ResultSeries *series, const System *system);
 Status derive_contact(Results *results, const ResultSeries *distribution);
 Status derive_compression(Results *results, const ResultSeries *compression, const System *system);
-Status derive_theory(Results *results, const char *stage, const System *system);
 // Likewise.
 Status derive_drift(Results *results, const ResultSeries *blocks);
 Status derive_structure_peak(Results *results, const ResultSeries *stretches);

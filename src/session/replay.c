@@ -201,6 +201,7 @@ static Status fill(const Plan *plan, const char *directory, Results *results) {
     TRY(results_put_fact(results, "analysed", directory));
     TRY(analysis_derive(results, &plan->system));
     TRY(analysis_centre(results, plan));
+    TRY(analysis_equation(results, plan));
     return analysis_judge(results, plan);
 }
 

@@ -162,6 +162,7 @@ static Status keep_results(Session *session, Results *results, double seconds) {
     if (!plan_is_theory(session->plan)) {
         TRY(analysis_derive(results, &session->plan->system));
         TRY(analysis_centre(results, session->plan));
+        TRY(analysis_equation(results, session->plan));
         TRY(analysis_judge(results, session->plan));
     }
     TRY(store_write_results(session->store, results));

@@ -5,6 +5,8 @@
 #include "base/constants.h"
 #include "observe.h"
 
+#include <stdlib.h>
+
 enum { REPLICAS = 16, LAGS = 41, BINS = 200 };
 static const RngKey KEY = {.seed = 7, .replica = 0};
 static const double NO_SPREAD[4] = {1, 1, 1, 1};
@@ -228,9 +230,36 @@ START_TEST(contact_value_of_an_exponential_is_found) {
     ck_assert_double_eq_tol(contact, 7, 7 * 2e-4);
     ck_assert_double_eq_tol(scalar_of(results, "quiescent", "compressibility_factor_contact"),
                             1 + 1.5 * contact, 1e-12);
-    ck_assert_double_eq_tol(scalar_of(results, "quiescent", "compressibility_factor_theory"),
-                            equation_discs_resummed(0.7), 1e-12);
     results_free(results);
+}
+END_TEST
+
+// One stage, at rest or sheared.
+static Plan *plan_of_contacts(const System *system, double rate) {
+    Plan *plan = calloc(1, sizeof *plan);
+    ck_assert_ptr_nonnull(plan);
+    plan->system = *system;
+    plan->stage_count = 1;
+    strcpy(plan->stages[0].name, "quiescent");
+    plan->stages[0].drive.flow.rate = rate;
+    return plan;
+}
+
+START_TEST(an_equation_of_state_is_for_stages_at_rest) {
+    const System discs = system_of(2, 1000, 0.7, 1);
+    for (int sheared = 0; sheared < 2; sheared++) {
+        Plan *plan = plan_of_contacts(&discs, sheared);
+        Results *results = contacts(7, 3);
+        ck_assert_int_eq(analysis_equation(results, plan), OK);
+        if (sheared)
+            ck_assert_ptr_null(results_find_scalar(results, "quiescent", "pressure_theory"));
+        else
+            ck_assert_double_eq_tol(
+                scalar_of(results, "quiescent", "compressibility_factor_theory"),
+                equation_discs_resummed(0.7), 1e-12);
+        results_free(results);
+        free(plan);
+    }
 }
 END_TEST
 
@@ -365,9 +394,11 @@ START_TEST(only_hard_discs_and_spheres_have_an_equation_of_state) {
     ck_assert(!equation_of_state_known(&soft));
     ck_assert(equation_of_state_known(&spheres));
     Results *results = contacts(7, 3);
-    ck_assert_int_eq(analysis_derive(results, &soft), OK);
+    Plan *plan = plan_of_contacts(&soft, 0);
+    ck_assert_int_eq(analysis_equation(results, plan), OK);
     ck_assert_ptr_null(results_find_scalar(results, "quiescent", "compressibility_factor_theory"));
     results_free(results);
+    free(plan);
 }
 END_TEST
 
@@ -515,6 +546,7 @@ int main(void) {
     tcase_add_test(c, newtonian_flight_has_no_brownian_short_time);
     tcase_add_test(c, heavier_species_diffuse_freely_in_proportion_less);
     tcase_add_loop_test(c, contact_value_of_an_exponential_is_found, 0, 4);
+    tcase_add_test(c, an_equation_of_state_is_for_stages_at_rest);
     tcase_add_test(c, relaxation_times_are_those_of_the_late_decay);
     tcase_add_test(c, what_has_not_relaxed_has_no_relaxation_time);
     tcase_add_test(c, every_direction_has_its_long_time_diffusion);
