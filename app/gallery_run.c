@@ -30,30 +30,39 @@ static Status split_settings(char *text, const char **settings, size_t *count) {
     return OK;
 }
 
+// {results} in a setting is the folder with the points before it: put in after words are split,
+// since it may have blanks.
+static Status put_folder(const GalleryRun *run, const char **settings, size_t count,
+                         char with_folder[2 * GALLERY_PATH]) {
+    static const char MARK[] = "{results}";
+    bool taken = false;
+    for (size_t i = 0; i < count; i++) {
+        const char *mark = strstr(settings[i], MARK);
+        if (!mark) continue;
+        if (taken) return status_fail(BAD_DATA, "%s stands in two settings of a point", MARK);
+        snprintf(with_folder, 2 * GALLERY_PATH, "%.*s%s%s", (int)(mark - settings[i]), settings[i],
+                 run->directory, mark + strlen(MARK));
+        settings[i] = with_folder;
+        taken = true;
+    }
+    return OK;
+}
+
 static Status run_plan(const GalleryRun *run, const char *run_file, const char *point,
                        char *settings_text) {
-    char file[GALLERY_PATH], directory[GALLERY_PATH];
+    char file[GALLERY_PATH], directory[GALLERY_PATH], with_folder[2 * GALLERY_PATH];
     const char *settings[GIVEN_MOST];
     ConfigOverrides overrides = {.settings = settings};
     TRY(gallery_path(file, run->entry, run_file));
     TRY(gallery_path(directory, run->directory, point));
     TRY(split_settings(settings_text, settings, &overrides.count));
+    TRY(put_folder(run, settings, overrides.count, with_folder));
     ConfigPoints *points = NULL;
     TRY(config_read_points(&points, file, &overrides));
     const SessionWishes wishes = {.directory = directory, .threads = run->threads};
     const Status status = runner_run(points, &wishes, true);
     config_free_points(points);
     return status;
-}
-
-// The settings of a point; {results} in them is the folder with the points before it.
-static void add_settings(const GalleryRun *run, const char *settings, Text *text) {
-    static const char MARK[] = "{results}";
-    for (const char *mark; (mark = strstr(settings, MARK)); settings = mark + strlen(MARK)) {
-        text_bytes(text, settings, (size_t)(mark - settings));
-        text_put(text, run->directory);
-    }
-    text_add(text, "%s\n", settings);
 }
 
 // The settings of the full run, which are for run.yaml, come last, so that they win.
@@ -64,8 +73,7 @@ static Status run_point(const GalleryRun *run, const Csv *points, size_t row) {
     TRY(gallery_path(path, run->entry, "full.txt"));
     if (run->full && other[0] == '\0') TRY(csv_read_text(path, &full));
     Text settings = {0};
-    add_settings(run, csv_cell(points, row, "settings"), &settings);
-    text_add(&settings, "%s\n", full ? full : "");
+    text_add(&settings, "%s\n%s\n", csv_cell(points, row, "settings"), full ? full : "");
     memory_free(full);
     Status status = text_status(&settings);
     if (status == OK)

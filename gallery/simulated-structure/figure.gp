@@ -6,7 +6,7 @@ set multiplot layout 2,2
 set xlabel "q in 1/d_{small}"
 set xrange [0:30]
 set ylabel "S(q) at 0.69, all discs"
-set yrange [0:4]
+set yrange [0:3]
 set key top right
 plot "fluid_0.69-s.csv" using 1:2 with points pointtype 6 pointsize 0.35 linecolor rgb "#888888" title "simulation", \
      "theory_0.69-smooth.csv" using 1:2 with lines linetype 2 title "smoothed", \

@@ -28,7 +28,7 @@ static void flatten(const Node *node, Text *text) {
 // "protocol.quiescent" for a stage, else "path.key".
 static void extend(char path[PATH_SIZE], const char *parent, const Node *entry) {
     const Node *stage = tree_find(entry, "stage");
-    const char *name = stage ? stage->text : entry->key ? entry->key : "";
+    const char *name = entry->key ? entry->key : stage ? stage->text : "";
     snprintf(path, PATH_SIZE, "%s%s%s", parent, parent[0] && name[0] ? "." : "", name);
 }
 

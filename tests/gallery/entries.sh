@@ -13,7 +13,7 @@ for entry in "$gallery"/*/; do
     points=$(grep -v -e '^#' -e '^point,' "$entry/points.csv" | cut -d, -f4,5 |
         sed -e 's/ /;/g' -e 's/^$/-/' -e 's/^,/-,/')
     for point in $points; do
-        settings=$(echo "${point%%,*}" | tr ';' ',')
+        settings=$(echo "${point%%,*}" | sed 's/{results}/results/' | tr ';' ',')
         # A run file of its own reads what points before it give, which is not there.
         case $point in *,?*) file=${point#*,} all=--all ;; *) file=run.yaml all= ;; esac
         for more in "" "$full"; do
