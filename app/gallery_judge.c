@@ -57,10 +57,10 @@ static Status keep_curve(const Judgement *judgement, const Results *results, con
     return status == OK ? closed : status;
 }
 
-// A measure that names a curve is taken at the points of that curve only.
-static bool wants(const Csv *measures, size_t measure, const char *curve) {
+// A measure that names a curve, or a point, is taken there only.
+static bool wants(const Csv *measures, size_t measure, const Measured *at) {
     const char *only = csv_cell(measures, measure, "curve");
-    return *only == '\0' || strcmp(only, curve) == 0;
+    return *only == '\0' || strcmp(only, at->curve) == 0 || strcmp(only, at->point) == 0;
 }
 
 static Status measure_point(Judgement *judgement, const Results *results, size_t row) {
@@ -70,7 +70,7 @@ static Status measure_point(Judgement *judgement, const Results *results, size_t
     TRY(csv_number(judgement->points, row, "x", 0, &at.x));
     for (size_t m = 0; m < measures->rows; m++) {
         const char *quantity = csv_cell(measures, m, "quantity");
-        if (!wants(measures, m, at.curve)) continue;
+        if (!wants(measures, m, &at)) continue;
         at.measure = csv_cell(measures, m, "measure");
         if (measure_is_curve(quantity)) {
             TRY(keep_curve(judgement, results, at.point, m));

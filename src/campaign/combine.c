@@ -4,8 +4,10 @@
 
 #include "base/memory.h"
 #include "base/number.h"
+#include "base/text.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 typedef struct Axes {
@@ -97,10 +99,33 @@ static bool shape_series(ResultSeries *shape, const Results *all, const Axes *ax
     return true;
 }
 
+static bool is_listed(const char *list, const char *name) {
+    const size_t length = strlen(name);
+    for (const char *at = list; (at = strstr(at, name)); at += length) {
+        const bool begins = at == list || at[-1] == ' ';
+        if (begins && (at[length] == '\0' || at[length] == ',')) return true;
+    }
+    return false;
+}
+
+// Adds it to the fact that lists what could not be laid side by side.
+static Status list_left_out(Results *all, const ResultSeries *series) {
+    char name[2 * RESULT_NAME];
+    const char *list = results_find_fact(all, RESULTS_NOT_SIDE_BY_SIDE);
+    snprintf(name, sizeof name, "%s/%s", series->stage, series->observable);
+    if (list && is_listed(list, name)) return OK;
+    Text longer = {0};
+    text_add(&longer, "%s%s%s", list ? list : "", list ? ", " : "", name);
+    Status status = text_status(&longer);
+    if (status == OK) status = results_put_fact(all, RESULTS_NOT_SIDE_BY_SIDE, text_words(&longer));
+    text_free(&longer);
+    return status;
+}
+
 static Status put_series(Results *all, const Axes *axes, size_t point, const Results *one,
                          const ResultSeries *series) {
     ResultSeries shape;
-    if (!shape_series(&shape, all, axes, series)) return OK;
+    if (!shape_series(&shape, all, axes, series)) return list_left_out(all, series);
     for (size_t r = 0; r < one->replicas; r++) {
         for (size_t e = 0; e < series->size; e++) {
             TRY(results_put_element(all, &shape, r, point * series->size + e,

@@ -9,6 +9,7 @@
 #include "config/judge.h"
 #include "config/options.h"
 #include "config/points.h"
+#include "config/rate_table.h"
 #include "config/sections.h"
 #include "config/tree.h"
 
@@ -250,7 +251,9 @@ static Status read_stage_keys(const Node *node, Stage *stage) {
     const OptionTarget targets[] = {
         {&stage_options, stage}, {&stage_until_options, stage}, {&drive_options, &stage->drive}};
     const OptionMap options = {name, targets, COUNT(targets), others};
-    return options_read(&options, node, true);
+    TRY(options_read(&options, node, true));
+    if (!stage->drive.flow.table.file[0]) return OK;
+    return rate_table_read(&stage->drive.flow, tree_find(node, "shear_table"));
 }
 
 // Keys over those of the whole run. If these name no known method, that has been told, and what the

@@ -69,17 +69,18 @@ typedef struct LagSettings {
         .about = "Time origins within the longest lag: as many configurations are kept in memory." \
     }
 
-// Further rows, of the observables that can tell one origin from another.
-#define WAITING_OPTIONS(Type, lags)                                                                \
-    {.name = "waiting_times",                                                                      \
-     .type = OPTION_REALS,                                                                         \
-     .offset = offsetof(Type, lags.waiting_times),                                                 \
-     .least = 0,                                                                                   \
-     .most = 1e12,                                                                                 \
-     .unit = "time unit of the stage",                                                             \
-     .about = "Time origins, ascending, counted from the start of the stage, each shown by "       \
-              "itself: how a sample ages; empty: the mean over many origins."},                    \
+// Further rows, of the observables that can tell one origin from another: the first alone for those
+// of stages at rest.
+#define WAITING_TIMES_OPTION(Type, lags)                                                           \
     {                                                                                              \
+        .name = "waiting_times", .type = OPTION_REALS,                                             \
+        .offset = offsetof(Type, lags.waiting_times), .least = 0, .most = 1e12,                    \
+        .unit = "time unit of the stage",                                                          \
+        .about = "Time origins, ascending, counted from the start of the stage, each shown by "    \
+                 "itself: how a sample ages; empty: the mean over many origins.",                  \
+    }
+#define WAITING_OPTIONS(Type, lags)                                                                \
+    WAITING_TIMES_OPTION(Type, lags), {                                                            \
         .name = "waiting_strain", .type = OPTION_REALS,                                            \
         .offset = offsetof(Type, lags.waiting_strain), .least = 0, .most = 1e9, .unit = "",        \
         .about = "The same of a stage with a steady shear_rate, counted in strain: 0 is the "      \

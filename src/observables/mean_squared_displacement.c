@@ -15,7 +15,8 @@ typedef struct MsdSettings {
     LagSettings lags;
 } MsdSettings;
 
-static const Option rows[] = {LAG_OPTIONS(MsdSettings, lags), WAITING_OPTIONS(MsdSettings, lags)};
+static const Option rows[] = {LAG_OPTIONS(MsdSettings, lags),
+                              WAITING_TIMES_OPTION(MsdSettings, lags)};
 
 typedef struct Msd {
     Observer observer;

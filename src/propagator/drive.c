@@ -52,6 +52,14 @@ static const Option rows[] = {
      .unit = "D0/d^2",
      .about = "The shear rate at these times: straight lines between them, constant before the "
               "first and after the last."},
+    {.name = "shear_table.file",
+     .type = OPTION_TEXT,
+     .offset = offsetof(Drive, flow.table.file),
+     .unit = "",
+     .about =
+         "Both from a text file instead, seen from the run file's folder: a line with a time, a "
+         "comma and a rate for each; lines that begin with # are comments. The plan keeps the "
+         "numbers."},
     {.name = "pull.species",
      .type = OPTION_TEXT,
      .offset = offsetof(Drive, pull.species),

@@ -16,8 +16,9 @@ typedef struct Flow {
         double frequency; // angular, in D0/d^2
     } oscillation;
     struct {
-        OptionReals times; // in d^2/D0 since the stage began
-        OptionReals rates; // on straight lines between, constant before and after
+        OptionReals times;           // in d^2/D0 since the stage began
+        OptionReals rates;           // on straight lines between, constant before and after
+        char file[OPTION_TEXT_SIZE]; // that the run file names in their place; "" once it is read
     } table;
 } Flow;
 

@@ -40,6 +40,7 @@ typedef struct FigureKind {
     const char *level;  // a scalar of the stage, drawn as a horizontal line
     const char *level_title;
     FigureLimit limit[FIGURE_LIMITS];
+    double coarse;          // points with a larger error are not drawn; 0: all are
     const char *about;      // what is to be seen, a sentence for the caption
     const char *about_line; // and about the line, where there is one
 } FigureKind;

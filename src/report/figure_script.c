@@ -12,6 +12,8 @@
 
 static const int MARKS[PALETTE_SIZE] = {7, 5, 9, 11, 13, 6, 4, 8}; // gnuplot's point types
 
+enum { VALUE_SIZE = 128 };
+
 #define REFERENCE "dashtype (6,4) linewidth 1.6 linecolor rgb '#333333'"
 
 // Columns of the numbers: x, then for each curve its value, its error and, if any, its line and its
@@ -206,13 +208,23 @@ static const char *title_of(const Figure *figure, size_t curve) {
     return figure_is_theory(figure) ? "theory" : "simulation";
 }
 
+// Noise would set the scale of the axis if all points were drawn.
+static void name_value(char value[VALUE_SIZE], const Figure *figure, size_t column) {
+    const double coarse = figure->kind ? figure->kind->coarse : 0;
+    if (coarse > 0)
+        snprintf(value, VALUE_SIZE, "valid(%zu) && column(%zu) > %g ? NaN : $%zu", column + 1,
+                 column + 1, coarse, column);
+    else
+        snprintf(value, VALUE_SIZE, "$%zu", column);
+}
+
 // A point of which the error is unknown is drawn without a bar: valid(3) asks. It would be skipped
 // if the error were called $3.
 static void put_curves(Text *script, const Figure *figure) {
     for (size_t c = 0; c < figure->curve_count; c++) {
-        char value[32], error[64];
+        char value[VALUE_SIZE], error[64];
         const size_t column = value_column(figure, c);
-        snprintf(value, sizeof value, "$%zu", column);
+        name_value(value, figure, column);
         snprintf(error, sizeof error, "valid(%zu) ? column(%zu) : 0", column + 1, column + 1);
         put_curve(script, figure, c, value, error, title_of(figure, c));
     }

@@ -71,6 +71,12 @@ static void put_system(Text *page, const Results *results) {
         html_unit(page, words);
         text_put(page, ".<br>\n");
     }
+    const char *list = fact(results, RESULTS_NOT_SIDE_BY_SIDE, NULL);
+    if (!list) return;
+    text_put(page, "Not side by side, for their axes are too many or differ (the report of each "
+                   "point has its own): ");
+    html_words(page, list);
+    text_put(page, ".<br>\n");
 }
 
 void page_begin(Text *page, const Results *results) {
@@ -272,7 +278,8 @@ void page_health(Text *page, const Results *results) {
 
 static bool is_elsewhere(const ResultFact *fact) { // above, or below the table
     if (tells_equilibrium(fact)) return true;
-    static const char *const NAMES[] = {"plan", "title", "system", "stages"};
+    static const char *const NAMES[] = {"plan", "title", "system", "stages",
+                                        RESULTS_NOT_SIDE_BY_SIDE};
     for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++) {
         if (strcmp(fact->name, NAMES[i]) == 0) return true;
     }

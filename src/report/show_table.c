@@ -146,12 +146,22 @@ static void lines_of_equilibrium(Text *text, const Results *results) {
     }
 }
 
+static void line_of_left_out(Text *text, const Results *results) {
+    const char *list = results_find_fact(results, RESULTS_NOT_SIDE_BY_SIDE);
+    if (!list) return;
+    text_add(text,
+             "\n%s, for their axes are too many or differ (each point's folder has its own): "
+             "%s\n",
+             RESULTS_NOT_SIDE_BY_SIDE, list);
+}
+
 void show_table(Text *text, const Results *results, const Selection *selection) {
     table_of_scalars(text, results, selection);
     if (selection->all) {
         if (results->scalar_count && results->series_count) text_put(text, "\n");
         table_of_names(text, results);
         lines_of_equilibrium(text, results);
+        line_of_left_out(text, results);
         return;
     }
     for (size_t i = 0; i < results->series_count; i++) {

@@ -75,6 +75,8 @@ Status results_put_element(Results *results, const ResultSeries *shape, size_t r
 Status results_put_scalar(Results *results, const char *stage, const char *quantity,
                           const char *unit, const char *about, size_t replica, double value);
 Status results_put_fact(Results *results, const char *name, const char *text);
+// The fact of a sweep that lists, with commas, series whose axes differ from point to point.
+#define RESULTS_NOT_SIDE_BY_SIDE "not side by side"
 Status results_put_health(Results *results, const char *name, const char *about, double limit,
                           double value);
 

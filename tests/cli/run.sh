@@ -24,6 +24,7 @@ printf 'title: Gr\366\337e\n' > latin1.yaml
 printf 'title: \300\200\n' > overlong.yaml
 printf '\377\376t\000i\000' > utf16.yaml
 head -c 2000000 /dev/zero | tr '\0' '#' > huge.yaml
+printf '# time, rate\n0, 1\n\n1, fast\n' > rates-broken.csv
 mkdir folder.yaml
 before=$(ls -lR . | cksum)
 

@@ -92,5 +92,23 @@ expect "the page has a figure or says why not" grep -q '<svg' $page
 cp $page before.html
 expect "written again, the page is the same" sh -c "'$perrin' report small && cmp before.html $page"
 
+# A sweep over rates, whose windows of strain differ; the flow of one of them from a file as well.
+sed -e '/^protocol/,$d' small.yaml > flow.yaml
+cat >> flow.yaml << 'END'
+protocol:
+  - {stage: flow, shear_rate: 1, time: 0.2, observe: [stress]}
+ensemble: {replicas: 2}
+END
+sed 's/shear_rate: 1,/shear_table: {file: rates.csv},/' flow.yaml > ramp.yaml
+printf '0, 2\n' > rates.csv
+echo 'sweep: {protocol.flow.shear_rate: [1, 2]}' >> flow.yaml
+"$perrin" run flow.yaml --quiet --threads 1 && "$perrin" run ramp.yaml --quiet --threads 1 || exit 1
+expect "what could not be laid side by side is named" \
+    sh -c "'$perrin' show flow | grep '^not side by side, .*: flow/stress\$'"
+expect "and on the page" grep -q 'Not side by side, .*: flow/stress' flow/report.html
+expect "rates from a file are those that they say" \
+    sh -c "'$perrin' show flow/shear_rate=2 shear_stress --csv | cut -d, -f2 > a &&
+           '$perrin' show ramp shear_stress --csv | cut -d, -f2 > b && test -s a && cmp a b"
+
 printf 'show: %d tests, %d failed\n' "$count" "$failed"
 test "$failed" = 0
