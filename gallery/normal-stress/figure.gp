@@ -4,7 +4,7 @@ set logscale xy
 set xlabel "shear rate in D_0/d^2"
 set ylabel "stress in kT/d^2"
 set xrange [0.15:4]
-set key top left
+set key bottom right
 is(curve, measure, value) = (strcol(2) eq curve ? of(measure, 4, value) : NaN)
 plot "measured.csv" using 3:(is("dense", "stress", $5)):6 with yerrorbars linetype 1 title "shear stress, 0.70", \
      "" using 3:(is("dense", "N1", $5)):6 with yerrorbars linetype 2 title "normal stress difference, 0.70", \
