@@ -3,7 +3,7 @@
 #pragma once
 
 #include "config/tree.h"
-#include "propagator/drive.h"
+#include "protocol/plan.h"
 
 // Puts the numbers of flow->table.file, seen from the folder of the run file in which `node`, the
 // map shear_table, stands, in place of its name. BAD_DATA with file and line.
