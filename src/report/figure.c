@@ -99,7 +99,7 @@ static void put_coordinate(Text *title, const ResultAxis *axis, size_t index) {
         return;
     }
     notation_name(title, axis->name);
-    text_add(title, " = %.4g ", axis->values[index]);
+    text_add(title, axis->unit[0] ? " = %.4g " : " = %.4g", axis->values[index]);
     notation_unit(title, axis->unit);
 }
 

@@ -80,9 +80,10 @@ static void put_looks(Text *script, const Figure *figure) {
     }
 }
 
-// Many names would lie on the curves: they go below, in columns as wide as the longest.
+// Many names would lie on the curves: they go below, in columns as wide as the longest, or are
+// written small where a second panel is below.
 typedef struct Legend {
-    bool below;
+    bool below, small;
     size_t columns, height; // in pixels
 } Legend;
 
@@ -98,8 +99,8 @@ static Legend legend_of(const Figure *figure) {
     }
     const size_t fit = WIDTH / (longest * LETTER + SAMPLE), columns = fit > 1 ? fit : 1;
     const size_t rows = (names + columns) / columns; // and one for what lies beside
-    const bool below = names > KEY_MOST && !has_ratio(figure);
-    return (Legend){below, columns, below ? rows * ROW : 0};
+    const bool many = names > KEY_MOST, below = many && !has_ratio(figure);
+    return (Legend){below, many && !below, columns, below ? rows * ROW : 0};
 }
 
 static void put_key(Text *script, const Figure *figure) {
@@ -109,7 +110,9 @@ static void put_key(Text *script, const Figure *figure) {
         text_add(script, "set key below maxcols %zu font ',14' noenhanced samplen 2 spacing 1.2\n",
                  legend.columns);
     else
-        text_add(script, "set key %s noenhanced samplen 2 spacing 1.2\n", key);
+        text_add(script, "set key %s noenhanced %s\n", key,
+                 legend.small ? "Left reverse font ',11' samplen 1.5 spacing 0.8"
+                              : "samplen 2 spacing 1.2");
 }
 
 static void put_head(Text *script, const Figure *figure) {
