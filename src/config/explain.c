@@ -159,6 +159,18 @@ static const char *last_part(const char *path) {
     return dot ? dot + 1 : path;
 }
 
+// The observable whose results begin with its name, as pressure_drift does; NULL if none.
+static const ObservableKind *observable_of_result(const char *name) {
+    const ObservableKind *longest = NULL;
+    for (size_t i = 0; observable_kinds[i]; i++) {
+        const char *kind = observable_kinds[i]->name;
+        const bool begins = strncmp(name, kind, strlen(kind)) == 0;
+        if (begins && (!longest || strlen(kind) > strlen(longest->name)))
+            longest = observable_kinds[i];
+    }
+    return longest;
+}
+
 static Status fail_unknown(const char *word) {
     const char *words[WORDS_MOST];
     size_t count = 0;
@@ -172,6 +184,13 @@ static Status fail_unknown(const char *word) {
     for (size_t i = 0; propagator_kinds[i] && count < WORDS_MOST; i++)
         words[count++] = propagator_kinds[i]->name;
     for (size_t i = 0; i < SHAPES && count < WORDS_MOST; i++) words[count++] = shape_names[i];
+    const ObservableKind *kind = observable_of_result(word);
+    if (kind)
+        return status_fail(
+            BAD_USAGE,
+            "'%s' is no key; if it is a result, of %s, 'perrin show DIR %s' says what "
+            "it is",
+            word, kind->name, word);
     const size_t nearest = nearest_word(word, words, count);
     if (nearest < count)
         return status_fail(BAD_USAGE, "'%s' is unknown; did you mean '%s'?", word, words[nearest]);
@@ -182,11 +201,27 @@ static Status fail_unknown(const char *word) {
         word);
 }
 
+// "quiescent/pressure_drift" and "stages/quiescent/pressure/mean", as `perrin show` and results.h5
+// have it. What a number means stands beside it in the file, since it may depend on the run.
+static Status explain_result(const char *path, FILE *out) {
+    const ObservableKind *kind = NULL;
+    for (const char *part = path; part && !kind; part = strchr(part, '/')) {
+        part += *part == '/';
+        kind = observable_of_result(part);
+    }
+    if (!kind) return fail_unknown(path);
+    fprintf(out,
+            "%s\n  A result of %s; 'perrin show DIR' says what it is, with its value and unit.\n",
+            path, kind->name);
+    return config_explain(kind->name, out);
+}
+
 Status config_explain(const char *word, FILE *out) {
     if (!word) {
         explain_all(out);
         return OK;
     }
+    if (strchr(word, '/')) return explain_unit(word, out) ? OK : explain_result(word, out);
     bool found = explain_shape(word, out);
     found = explain_unit(word, out) || found;
     for (size_t s = 0; s < section_count(); s++) {
