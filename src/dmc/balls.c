@@ -11,6 +11,7 @@
 static const uint64_t METROPOLIS_BLOCKS = 1ull << 63;
 static const double DEEPEST_NUDGED = 1e-6; // overlap that rounding of positions may explain
 static const int NUDGES_MOST = 1000;       // sweeps over all particles
+static const int64_t EDGE = 1ll << 32;     // of the box, in lattice steps
 static const double EXPONENT_LEAST = 4, EXPONENT_MOST = 1000;
 static const double PARTICLES_MOST = 1 << 28;
 static const double SPREAD_REACH = 4; // standard deviations of diameters that must fit
@@ -88,15 +89,11 @@ static void balls_free(Chain *chain) {
     memory_free(balls->list);
     memory_free(balls->seat);
     memory_free(balls->seated);
-    memory_free(balls->coarse_anchor);
     memory_free(balls->seat_row);
     memory_free(balls->found);
     memory_free(balls->entered);
     memory_free(balls->ids);
-    for (int a = 0; a < 3; a++) {
-        memory_free(balls->column[a]);
-        memory_free(balls->normals[a]);
-    }
+    for (int a = 0; a < 3; a++) memory_free(balls->normals[a]);
     memory_free(balls);
 }
 
@@ -104,12 +101,10 @@ static Status allocate(Balls *balls) {
     const size_t count = balls->count;
     TRY(NEW_ARRAY(balls->ball, count));
     TRY(NEW_ARRAY(balls->radius, count));
-    TRY(NEW_ARRAY(balls->coarse, count));
-    TRY(NEW_ARRAY(balls->coarse_anchor, count));
+    TRY(NEW_ARRAY(balls->coarse, 2 * count));
     TRY(NEW_ARRAY(balls->found, count + NEIGHBOURS_AT_A_TIME));
     TRY(NEW_ARRAY(balls->entered, count + NEIGHBOURS_AT_A_TIME));
     TRY(NEW_ARRAY(balls->radius_single, count));
-    for (int a = 0; a < 3 && balls->soft; a++) TRY(NEW_ARRAY(balls->column[a], count));
     if (!balls->settings.gaussian) return OK;
     TRY(NEW_ARRAY(balls->ids, TRIALS_PER_BLOCK));
     for (uint32_t t = 0; t < TRIALS_PER_BLOCK; t++) balls->ids[t] = t;
@@ -124,9 +119,7 @@ static void take_in(Balls *balls) {
         ball->species = state->species_of[i];
         for (int a = 0; a < balls->dimension; a++) {
             const double fraction = state->position[a][i] / state->box.edge[a];
-            const int64_t place = (int64_t)rint(fraction * 0x1p32);
-            ball->place[a] = (uint32_t)place;
-            ball->image[a] = state->image[a][i] + (int32_t)(place >> 32);
+            ball->place[a] = state->image[a][i] * EDGE + (int64_t)rint(fraction * 0x1p32);
         }
     }
 }
@@ -144,6 +137,17 @@ static bool edges_are_equal(const State *state) {
 static const double ALIKE_OFF = 1.7320509, SCALED_OFF = 3.0310890, RADII_OFF = 1.25;
 static const double RADIUS_SCALE = 24576.0 / 32768;
 
+// By how much an energy may be off, relative to it: exp(x) - 1 < x (1 + x), with n times what ln r
+// is off, down to where energies are flat, n/2 times the 2^-12 of the inverse of r^2, and single
+// precision.
+static void set_energy_doubt(Balls *balls, double contact) {
+    const double flat = contact * exp2(-7.0 / balls->exponent) - 2 * ALIKE_OFF;
+    const double doubt = balls->exponent * (ALIKE_OFF / flat + 0x1p-13 + 1e-6) + 1e-5;
+    balls->faint = (float)exp2(-36.0 / balls->exponent);
+    balls->coarse_contact2 = (float)(contact * contact);
+    balls->energy_doubt = flat > 0 && doubt < 1 ? (float)(doubt * (1 + doubt)) : INFINITY;
+}
+
 static void set_coarse_bounds(Balls *balls) {
     const double *edge = balls->state->box.edge;
     const double longest = box_longest_edge(&balls->state->box);
@@ -152,6 +156,7 @@ static void set_coarse_bounds(Balls *balls) {
     const double below = contact + ALIKE_OFF, sure = fmax(contact - ALIKE_OFF, 0);
     balls->below = (uint32_t)(below * below) + 2;
     balls->sure = (uint32_t)(sure * sure);
+    if (balls->soft) set_energy_doubt(balls, contact);
     const double off = SCALED_OFF + RADII_OFF;
     balls->doubt = (int32_t)(2 * off * contact + off * off) + 2;
     for (int a = 0; a < balls->dimension; a++) {
@@ -159,10 +164,12 @@ static void set_coarse_bounds(Balls *balls) {
     }
     for (size_t i = 0; i < balls->count; i++) {
         const double radius = balls->radius[i] / longest * per_edge / RADIUS_SCALE;
-        const uint64_t minus = (uint16_t) - (int32_t)rint(radius);
-        const Ball *ball = &balls->ball[i];
-        balls->coarse[i] =
-            balls_coarse(ball->place) | (balls->alike || balls->soft ? 0 : minus << 48);
+        const int32_t coarse = balls->alike || balls->soft ? 0 : (int32_t)rint(radius);
+        Ball *ball = &balls->ball[i];
+        uint32_t place[3];
+        balls_fractions(ball->place, place);
+        ball->place[3] = (int64_t)coarse << 16;
+        balls->coarse[i] = balls_coarse(place) | (uint64_t)(uint16_t)-coarse << 48;
     }
 }
 
@@ -177,7 +184,6 @@ static Status set_scale(Balls *balls, double scale) {
         balls->radius_single[i] = (float)balls->radius[i];
         balls->largest = fmax(balls->largest, 2 * balls->radius[i]);
         balls->alike &= state->diameter[i] == state->diameter[0];
-        for (int a = 0; a < 3 && balls->soft; a++) balls->column[a][i] = balls->ball[i].place[a];
     }
     set_coarse_bounds(balls);
     return balls_list(balls);
@@ -248,28 +254,35 @@ static void set_amplitude(Chain *chain, size_t species, const Amplitude *amplitu
 
 // The place of i moves a lattice step away from j along the axis on which they are farthest apart.
 static void nudge(Balls *balls, uint32_t i, uint32_t j) {
-    Ball *ball = &balls->ball[i];
+    int64_t *place = balls->ball[i].place;
     double r[3];
     int axis = 0;
     for (int a = 0; a < 3; a++) {
-        r[a] = (double)(int32_t)(ball->place[a] - balls->ball[j].place[a]) * balls->unit[a];
+        r[a] = (double)(int32_t)(place[a] - balls->ball[j].place[a]) * balls->unit[a];
         axis = fabs(r[a]) > fabs(r[axis]) ? a : axis;
     }
-    const bool down = r[axis] < 0;
-    ball->image[axis] += down ? -(ball->place[axis] == 0) : ball->place[axis] == UINT32_MAX;
-    ball->place[axis] += down ? UINT32_MAX : 1;
+    place[axis] += r[axis] < 0 ? -1 : 1;
+}
+
+static double distance2_of(const Balls *balls, uint32_t i, uint32_t j) {
+    uint32_t a[3], b[3];
+    balls_fractions(balls->ball[i].place, a);
+    balls_fractions(balls->ball[j].place, b);
+    return balls_distance2(balls, a, b);
 }
 
 static int64_t overlapped(const Balls *balls, uint32_t i) {
     const uint32_t *list = balls->list + i * balls->room;
-    for (uint32_t n = 0; n < balls->ball[i].neighbours; n++) {
-        if (balls_overlap(balls, i, balls->ball[i].place, list[n])) return list[n];
+    uint32_t place[3];
+    balls_fractions(balls->ball[i].place, place);
+    for (uint32_t n = 1; n < balls->ball[i].entries; n++) {
+        if (balls_overlap(balls, i, place, list[n])) return list[n];
     }
     return -1;
 }
 
 static Status refuse(const Balls *balls, uint32_t i, uint32_t j) {
-    const double r2 = balls_distance2(balls, balls->ball[i].place, balls->ball[j].place);
+    const double r2 = distance2_of(balls, i, j);
     return status_fail(UNHEALTHY,
                        "particles %u and %u overlap by %.3g of their distance at contact; a Monte "
                        "Carlo chain begins without overlaps",
@@ -287,9 +300,7 @@ static Status separate(Balls *balls) {
             if (j < 0) continue;
             const double contact = balls->radius[i] + balls->radius[j];
             const double least = (1 - DEEPEST_NUDGED) * contact;
-            if (balls_distance2(balls, balls->ball[i].place, balls->ball[j].place) <
-                    least * least ||
-                sweep >= NUDGES_MOST) {
+            if (distance2_of(balls, i, (uint32_t)j) < least * least || sweep >= NUDGES_MOST) {
                 return refuse(balls, i, (uint32_t)j);
             }
             nudge(balls, i, (uint32_t)j);
@@ -349,7 +360,8 @@ static Status run(Chain *chain, int64_t trials, Tally *tally) {
             !balls_pull_trial(balls, *step, tally->moves)) {
             return NO_MEMORY;
         }
-        const size_t calm = pull_calm(pull, *step, balls->count, balls->who + from, ~STRAYS, count);
+        const size_t calm =
+            pull_calm(pull, *step, balls->count, balls->who + from, UINT32_MAX, count);
         if (!balls->kernel->run(balls, from, from + calm, tally->moves)) return NO_MEMORY;
         *step += (int64_t)(calm > 0 ? calm : 1);
     }
@@ -370,14 +382,15 @@ static void publish(Chain *chain) {
     State *state = balls->state;
     for (size_t i = 0; i < balls->count; i++) {
         for (int a = 0; a < balls->dimension; a++) {
-            state->position[a][i] = balls->ball[i].place[a] * balls->unit[a];
-            state->image[a][i] = balls->ball[i].image[a];
+            const int64_t place = balls->ball[i].place[a];
+            state->position[a][i] = (uint32_t)place * balls->unit[a];
+            state->image[a][i] = (int32_t)(place >> 32);
         }
     }
 }
 
 static size_t memory(const System *system) {
-    const size_t lists = 2 * NEIGHBOURS_AT_A_TIME * sizeof(uint32_t);
+    const size_t lists = NEIGHBOURS_PER_ROOM * sizeof(uint32_t);
     return (size_t)system->particles * (sizeof(Ball) + lists + 64) + sizeof(Balls);
 }
 

@@ -19,16 +19,14 @@ enum {
     NEIGHBOURS_AT_A_TIME = 16,
     NEIGHBOURS_PER_ROOM = 32, // two cache lines
 };
-static const uint32_t STRAYS = 1u << 31;   // in `who`: the trial goes farther than lists reach
 static const double ENERGY_UNITS = 0x1p16; // per kT
 static const double ENERGY_MOST = 0x1p23;  // of a pair, in units: 128 kT
 
 // One cache line.
 typedef struct Ball {
-    uint32_t place[4];   // fractions of the edges; 0
-    uint32_t anchor[4];  // place when its list was made
-    int32_t image[3];    // with the next one a vector
-    uint32_t neighbours; // in its list
+    int64_t place[4];   // fractions of the edges, and above them whole edges; radius of `coarse`
+    uint32_t anchor[3]; // fractions when its list was made
+    uint32_t entries;   // of its list
     uint32_t species;
     uint32_t cell, seat; // of the anchor
     uint32_t unused;
@@ -73,35 +71,35 @@ struct Balls {
     Ball *ball;           // [count]
     double *radius;       // [count], in d
     double largest;       // diameter at this scale
-    uint64_t *coarse;     // [count] upper halves of the places, and minus the radius, 16 bits each
+    uint64_t *coarse;     // [count] upper halves of the places, and minus the radius, 16 bits each;
+                          // [count] those of the anchors, and plus the radius
     uint32_t below, sure; // `alike`: square of a coarse distance from which on nothing overlaps;
                           // below which all does
     int32_t doubt;        // else: bound of the error of (distance^2 - contact^2)
+    float faint;          // soft ones: (contact/distance)^2 of energies that round to nothing
+    float coarse_contact2, energy_doubt; // soft ones, `alike`: square of the coarse contact; bound
+                                         // of the relative error of energies from coarse distances
+    uint32_t leashed; // square of a coarse distance from the anchor that lists surely cover
     int16_t coarse_scale[3];
-    uint32_t *column[3];  // [count] of soft ones: places
     float *radius_single; // [count] of soft ones
 
     bool listed;    // lists and cells are those of this skin and scale
     bool separate;  // seen to be without overlaps at this scale
     double reach;   // contact times this: the range of the interaction
     double skin;    // in d
-    double stride;  // longest displacement that is looked up in the lists, in d
-    float leash2;   // (skin/2)^2, of how far from its anchor a particle may come, in d^2
+    double leash2;  // (skin/2)^2, of how far from its anchor a particle may come, in d^2
     size_t room;    // of each list, a multiple of NEIGHBOURS_PER_ROOM
-    uint32_t *list; // [count][room], the rest others than itself
+    uint32_t *list; // [count][room]: the anchor of i, which is count + i, neighbours, others
     int64_t cells[3];
-    size_t cells_most, seats; // of the arrays below; seats a multiple of NEIGHBOURS_AT_A_TIME
-    uint32_t *seated;         // [cells_most] particles in each cell
-    uint32_t *seat;           // [cells_most][seats] who they are
-    uint64_t *seat_row;       // [cells_most][seats] their coarse anchors
-    uint64_t *coarse_anchor;  // [count]
-    uint32_t far;             // square of a coarse distance of anchors beyond the range of lists
-    uint32_t
-        unfelt; // the same of places from the middle of a trial, beyond the range of soft balls
+    size_t cells_most, seats;  // of the arrays below; seats a multiple of NEIGHBOURS_AT_A_TIME
+    uint32_t *seated;          // [cells_most] particles in each cell
+    uint32_t *seat;            // [cells_most][seats] who they are
+    uint64_t *seat_row;        // [cells_most][seats] their coarse anchors
+    uint32_t far;              // square of a coarse distance of anchors beyond the range of lists
     uint32_t *found, *entered; // [count + NEIGHBOURS_AT_A_TIME] room for a search
 
     uint64_t block;                                 // whose trials are drawn; UINT64_MAX: none
-    uint32_t who[TRIALS_PER_BLOCK + 8];             // particle, and perhaps STRAYS
+    uint32_t who[TRIALS_PER_BLOCK + 8];             // particle
     _Alignas(64) int32_t move[TRIALS_PER_BLOCK][4]; // in lattice steps; 0
     int32_t affordable[TRIALS_PER_BLOCK];           // -ln of a uniform number, in energy units
     double *normals[3];                             // [TRIALS_PER_BLOCK]
@@ -138,6 +136,17 @@ static inline uint64_t balls_coarse(const uint32_t place[3]) {
     return coarse;
 }
 
+static inline uint64_t balls_coarse_scales(const Balls *balls) {
+    const int16_t *f = balls->coarse_scale;
+    return (uint64_t)(uint16_t)f[0] | (uint64_t)(uint16_t)f[1] << 16 |
+           (uint64_t)(uint16_t)f[2] << 32;
+}
+
+// Fractions of the edges.
+static inline void balls_fractions(const int64_t place[3], uint32_t fractions[3]) {
+    for (int a = 0; a < 3; a++) fractions[a] = (uint32_t)place[a];
+}
+
 static inline double balls_distance2(const Balls *balls, const uint32_t a[3], const uint32_t b[3]) {
     double r[3];
     for (int k = 0; k < 3; k++) r[k] = (double)(int32_t)(a[k] - b[k]) * balls->unit[k];
@@ -148,22 +157,35 @@ static inline double balls_distance2(const Balls *balls, const uint32_t a[3], co
 static inline bool balls_overlap(const Balls *balls, uint32_t i, const uint32_t place[3],
                                  uint32_t j) {
     const double contact = balls->radius[i] + balls->radius[j];
-    return balls_distance2(balls, place, balls->ball[j].place) < contact * contact;
+    uint32_t other[3];
+    balls_fractions(balls->ball[j].place, other);
+    return balls_distance2(balls, place, other) < contact * contact;
+}
+
+static inline float balls_distance2_single(const Balls *balls, const uint32_t place[3],
+                                           uint32_t j) {
+    float r[3];
+    for (int k = 0; k < 3; k++) {
+        const uint32_t other = (uint32_t)balls->ball[j].place[k];
+        r[k] = (float)(int32_t)(place[k] - other) * balls->unit_single[k];
+    }
+    return r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
 }
 
 // The rule, in single precision: (d/r)^n in units, rounded; the same from both.
 static inline int32_t balls_energy(const Balls *balls, uint32_t i, const uint32_t place[3],
                                    uint32_t j) {
     const float contact = balls->radius_single[i] + balls->radius_single[j];
-    float r[3];
-    for (int k = 0; k < 3; k++) {
-        r[k] = (float)(int32_t)(place[k] - balls->ball[j].place[k]) * balls->unit_single[k];
-    }
-    const float y = contact * contact / (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+    const float y = contact * contact / balls_distance2_single(balls, place, j);
     float power = balls->exponent & 1 ? __builtin_sqrtf(y) : 1, square = y;
     for (int n = balls->exponent / 2; n > 0; n /= 2, square *= square) {
         if (n & 1) power *= square;
     }
     power *= (float)ENERGY_UNITS;
     return (int32_t)__builtin_rintf(power < (float)ENERGY_MOST ? power : (float)ENERGY_MOST);
+}
+
+// Is this farther from the particle's anchor than its list allows?
+static inline bool balls_leaves_anchor(const Balls *balls, uint32_t i, const uint32_t place[3]) {
+    return balls_distance2(balls, place, balls->ball[i].anchor) > balls->leash2;
 }

@@ -11,35 +11,38 @@
 #include <math.h>
 #include <string.h>
 
-static const double SKIN_LEAST = 0.45, SKIN_MOST = 1.6; // in diameters
-static const double SKIN_STEPS = 0.9, SKIN_FAR = 2.5;   // between these, in longest steps
+static const double SKIN_LEAST = 0.35, SKIN_MOST = 1.6; // in diameters
+static const double SKIN_FAR = 2.5;                     // in longest steps
+static const double PI = 3.14159265358979323846;
 static const double WIDER = 1.00001; // rounding of distances and of single precision
 
 static double contact_of(const Balls *balls, uint32_t i, uint32_t j) {
     return (balls->radius[i] + balls->radius[j]) * balls->reach;
 }
 
-// Normal displacements are unbounded: the few longer than 3.7 standard deviations go without lists.
+// The skin with which a list fills what the hot loop looks at together, but for some room to spare;
+// longer for long steps.
 static void choose_skin(Balls *balls) {
-    const double longest = balls->settings.gaussian ? 3.7 / sqrt(3) * balls->longest
-                                                    : sqrt(balls->dimension) * balls->longest;
-    const double wanted =
-        fmax(SKIN_LEAST * balls->largest + SKIN_STEPS * longest, SKIN_FAR * longest);
-    balls->skin = fmin(wanted, SKIN_MOST * balls->largest);
-    balls->stride = fmin(longest * WIDER, balls->skin / 2);
+    const Box *box = &balls->state->box;
+    const double filled = balls->soft ? 27 : 14, density = (double)balls->count / box_volume(box);
+    const double range = balls->dimension == 2 ? sqrt(filled / (density * PI))
+                                               : cbrt(filled / (density * PI * 4 / 3));
+    const double longest = sqrt(balls->settings.gaussian ? 3 : balls->dimension) * balls->longest;
+    const double wanted = fmax(range - balls->largest * balls->reach, SKIN_FAR * longest);
+    balls->skin = fmin(fmax(wanted, SKIN_LEAST * balls->largest), SKIN_MOST * balls->largest);
     const double leash = balls->skin / 2 / WIDER;
-    balls->leash2 = (float)(leash * leash);
+    balls->leash2 = leash * leash;
 }
 
-// Coarse distances of anchors are in the scaled steps of balls.c, and off by less than four.
+// Coarse distances in the scaled steps of balls.c are off by less than four.
 static void choose_far(Balls *balls) {
     const double longest = box_longest_edge(&balls->state->box);
+    const double per_edge = balls->alike ? 0x1p16 : COARSE_PER_EDGE;
     const double range =
         (balls->largest * balls->reach + balls->skin) / longest * COARSE_PER_EDGE + 4;
-    const double felt =
-        (balls->largest * balls->reach + balls->stride / 2) / longest * COARSE_PER_EDGE + 4;
+    const double leash = fmax(sqrt(balls->leash2) / longest * per_edge - 4, 0);
     balls->far = (uint32_t)fmin(range * range, 0x1p30 * 1.9);
-    balls->unfelt = (uint32_t)fmin(felt * felt, 0x1p30 * 1.9);
+    balls->leashed = (uint32_t)(leash * leash);
 }
 
 static Status make_cells(Balls *balls, size_t cells) {
@@ -105,17 +108,21 @@ static void cell_at(const Balls *balls, const uint32_t place[3], int64_t at[3]) 
     for (int a = 0; a < 3; a++) at[a] = (int64_t)((place[a] * (uint64_t)balls->cells[a]) >> 32);
 }
 
+static uint64_t *anchor_of(const Balls *balls, uint32_t i) {
+    return balls->coarse + balls->count + i;
+}
+
 static Status cell_enter(Balls *balls, uint32_t i) {
     Ball *ball = &balls->ball[i];
     int64_t at[3];
-    memcpy(ball->anchor, ball->place, sizeof ball->anchor);
-    balls->coarse_anchor[i] = balls_coarse(ball->anchor);
+    balls_fractions(ball->place, ball->anchor);
+    *anchor_of(balls, i) = balls_coarse(ball->anchor) | (uint64_t)ball->place[3] << 32;
     cell_at(balls, ball->anchor, at);
     ball->cell = (uint32_t)cell_index(balls, at);
     ball->seat = balls->seated[ball->cell]++;
     if (ball->seat == balls->seats) TRY(more_seats(balls));
     balls->seat[ball->cell * balls->seats + ball->seat] = i;
-    balls->seat_row[ball->cell * balls->seats + ball->seat] = balls->coarse_anchor[i];
+    balls->seat_row[ball->cell * balls->seats + ball->seat] = *anchor_of(balls, i);
     return OK;
 }
 
@@ -125,7 +132,7 @@ static void cell_leave(Balls *balls, uint32_t i) {
     uint32_t *seat = balls->seat + ball->cell * balls->seats;
     const uint32_t last = seat[--balls->seated[ball->cell]];
     seat[ball->seat] = last;
-    balls->seat_row[ball->cell * balls->seats + ball->seat] = balls->coarse_anchor[last];
+    balls->seat_row[ball->cell * balls->seats + ball->seat] = *anchor_of(balls, last);
     balls->ball[last].seat = ball->seat;
 }
 
@@ -155,7 +162,7 @@ static int cells_round(const Balls *balls, const uint32_t place[3], int64_t cell
 
 // Who is in whose list; the same from both. Balls that are all alike are by the coarse distance of
 // their anchors, which never leaves out who belongs: it alone judges eight at a time.
-static bool belong(const Balls *balls, uint32_t i, const uint32_t anchor[4], uint32_t j) {
+static bool belong(const Balls *balls, uint32_t i, const uint32_t anchor[3], uint32_t j) {
     const double range = contact_of(balls, i, j) + balls->skin;
     return balls_distance2(balls, anchor, balls->ball[j].anchor) < range * range;
 }
@@ -168,7 +175,7 @@ static size_t search(const Balls *balls, uint32_t i) {
     for (int c = 0; c < number; c++) {
         const size_t first = (size_t)cells[c] * balls->seats;
         near +=
-            balls->kernel->near(balls, balls->coarse_anchor[i], balls->seat_row + first,
+            balls->kernel->near(balls, *anchor_of(balls, i), balls->seat_row + first,
                                 balls->seat + first, balls->seated[cells[c]], balls->found + near);
     }
     for (size_t n = 0; n < near; n++) {
@@ -180,7 +187,7 @@ static size_t search(const Balls *balls, uint32_t i) {
 }
 
 // Of `ids` those who do not belong in the list of i if its anchor is there, into `others`.
-static size_t outside(const Balls *balls, uint32_t i, const uint32_t anchor[4], const uint32_t *ids,
+static size_t outside(const Balls *balls, uint32_t i, const uint32_t anchor[3], const uint32_t *ids,
                       size_t count, uint32_t *others) {
     size_t number = 0;
     if (balls->alike) {
@@ -193,8 +200,15 @@ static size_t outside(const Balls *balls, uint32_t i, const uint32_t anchor[4], 
     return number;
 }
 
+// The first entry is no neighbour.
 static uint32_t *list_of(const Balls *balls, uint32_t i) {
     return balls->list + i * balls->room;
+}
+
+// Where a list has no more entries: among hard ones another particle, which does no harm if it is
+// no neighbour; among soft ones the own anchor, as energies of ones far away are slow.
+static uint32_t filler(const Balls *balls, uint32_t i) {
+    return balls->soft ? (uint32_t)balls->count + i : i == 0 && balls->count > 1;
 }
 
 // Longer lists for all.
@@ -205,8 +219,7 @@ static Status make_room(Balls *balls, size_t wanted) {
     uint32_t *list = NULL;
     TRY(NEW_ARRAY(list, balls->count * room));
     for (uint32_t i = 0; i < balls->count; i++) {
-        // A particle that is no neighbour does no harm there, as the particle itself would.
-        for (size_t n = 0; n < room; n++) list[i * room + n] = i == 0 && balls->count > 1;
+        for (size_t n = 0; n < room; n++) list[i * room + n] = filler(balls, i);
         if (balls->list) {
             memcpy(list + i * room, list_of(balls, i), balls->room * sizeof *list);
         }
@@ -218,32 +231,38 @@ static Status make_room(Balls *balls, size_t wanted) {
 }
 
 static Status enter_list(Balls *balls, uint32_t of, uint32_t i) {
-    const size_t count = balls->ball[of].neighbours;
-    TRY(make_room(balls, count + 1));
-    list_of(balls, of)[count] = i;
-    balls->ball[of].neighbours++;
+    const size_t entries = balls->ball[of].entries;
+    TRY(make_room(balls, entries + 1));
+    list_of(balls, of)[entries] = i;
+    balls->ball[of].entries++;
     return OK;
 }
 
 static void leave_list(Balls *balls, uint32_t of, uint32_t i) {
-    uint32_t *list = list_of(balls, of), n = 0;
+    uint32_t *list = list_of(balls, of), n = 1, last = --balls->ball[of].entries;
     while (list[n] != i) n++;
-    list[n] = list[--balls->ball[of].neighbours];
+    list[n] = list[last];
+    if (balls->soft) list[last] = filler(balls, of);
 }
 
 static Status take_found(Balls *balls, uint32_t i, size_t count) {
-    TRY(make_room(balls, count));
-    memcpy(list_of(balls, i), balls->found, count * sizeof *balls->found);
-    balls->ball[i].neighbours = (uint32_t)count;
+    TRY(make_room(balls, count + 1));
+    uint32_t *list = list_of(balls, i);
+    const uint32_t before = balls->ball[i].entries;
+    list[0] = (uint32_t)balls->count + i;
+    memcpy(list + 1, balls->found, count * sizeof *balls->found);
+    for (size_t n = count + 1; balls->soft && n < before; n++) list[n] = filler(balls, i);
+    balls->ball[i].entries = (uint32_t)count + 1;
     return OK;
 }
 
 bool balls_refresh(Balls *balls, uint32_t i) {
     const Ball *ball = &balls->ball[i];
-    uint32_t before[4];
+    uint32_t before[3], place[3];
     memcpy(before, ball->anchor, sizeof before);
+    balls_fractions(ball->place, place);
     const size_t left =
-        outside(balls, i, ball->place, list_of(balls, i), ball->neighbours, balls->found);
+        outside(balls, i, place, list_of(balls, i) + 1, ball->entries - 1, balls->found);
     for (size_t n = 0; n < left; n++) leave_list(balls, balls->found[n], i);
     cell_leave(balls, i);
     if (cell_enter(balls, i) != OK) return false;

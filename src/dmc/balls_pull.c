@@ -5,40 +5,31 @@
 
 #include <math.h>
 
-static double rise_in_kt(const Balls *balls, uint32_t i, const uint32_t to[4]) {
+static double rise_in_kt(const Balls *balls, uint32_t i, const uint32_t to[3]) {
     if (!balls->soft) return balls_overlap_anywhere(balls, i, to) ? INFINITY : 0;
+    uint32_t from[3];
+    balls_fractions(balls->ball[i].place, from);
     const int64_t rise =
-        balls_energy_anywhere(balls, i, to) - balls_energy_anywhere(balls, i, balls->ball[i].place);
+        balls_energy_anywhere(balls, i, to) - balls_energy_anywhere(balls, i, from);
     return (double)rise / ENERGY_UNITS;
 }
 
-static void carry_out(Balls *balls, uint32_t i, const uint32_t to[4], const int64_t move[3]) {
-    Ball *ball = &balls->ball[i];
-    for (int a = 0; a < 3; a++) {
-        const int64_t edges = (int64_t)ball->place[a] + move[a] - (int64_t)to[a];
-        ball->image[a] += (int32_t)(edges >> 32);
-        ball->place[a] = to[a];
-        if (balls->soft) balls->column[a][i] = to[a];
-    }
+static void carry_out(Balls *balls, uint32_t i, const uint32_t to[3], const int64_t move[3]) {
     const uint64_t radius = balls->coarse[i] & 0xffffull << 48;
+    for (int a = 0; a < 3; a++) balls->ball[i].place[a] += move[a];
     balls->coarse[i] = balls_coarse(to) | radius;
-}
-
-static bool has_left_anchor(const Balls *balls, const Ball *ball) {
-    static const double SURE = 0.9999; // of single precision
-    return balls_distance2(balls, ball->place, ball->anchor) >= SURE * (double)balls->leash2;
 }
 
 bool balls_pull_trial(Balls *balls, int64_t trial, MoveTally *moves) {
     const uint32_t i = (uint32_t)balls->pull.particle;
     const Ball *ball = &balls->ball[i];
     const PullTrial drawn = pull_trial(&balls->pull, balls->key, trial, balls->dimension);
-    _Alignas(16) uint32_t to[4] = {0};
+    uint32_t to[3] = {0};
     int64_t move[3] = {0};
     MoveTally *tally = &moves[ball->species];
     for (int a = 0; a < balls->dimension; a++) {
         move[a] = (int64_t)rint(drawn.shift[a] / balls->unit[a]);
-        to[a] = ball->place[a] + (uint32_t)move[a];
+        to[a] = (uint32_t)(ball->place[a] + move[a]);
     }
     const double rise = rise_in_kt(balls, i, to);
     tally->trials++;
@@ -48,5 +39,5 @@ bool balls_pull_trial(Balls *balls, int64_t trial, MoveTally *moves) {
     tally->parallel += drawn.shift[0] * drawn.shift[0];
     tally->perpendicular += drawn.shift[1] * drawn.shift[1] + drawn.shift[2] * drawn.shift[2];
     carry_out(balls, i, to, move);
-    return !has_left_anchor(balls, ball) || balls_refresh(balls, i);
+    return !balls_leaves_anchor(balls, i, to) || balls_refresh(balls, i);
 }

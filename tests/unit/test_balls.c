@@ -38,10 +38,14 @@ static const Scene SCENES[] = {
     {"a long box", 3, 400, 0.40, 1, 0, 0, 2, 0.1, &UNIFORM},
     {"discs", 2, 400, 0.70, 1, 0, 0, 1, 0.1, &UNIFORM},
     {"mixture of discs", 2, 400, 0.72, 1.4, 0, 0, 1.5, 0.1, &UNIFORM},
+    {"one sphere", 3, 1, 0.01, 1, 0, 0, 1, 0.3, &UNIFORM},
+    {"two spheres", 3, 2, 0.02, 1, 0, 0, 1, 0.3, &UNIFORM},
     {"few spheres", 3, 4, 0.10, 1, 0, 0, 1, 0.3, &UNIFORM},
     {"soft spheres", 3, 300, 0.45, 1, 0, 36, 1, 0.1, &UNIFORM},
     {"dilute soft spheres, large steps", 3, 60, 0.10, 1, 0, 36, 1, 0.4, &UNIFORM},
     {"softer spheres", 3, 400, 0.25, 1, 0, 13, 1, 0.1, &UNIFORM},
+    {"soft spheres that are nearly hard", 3, 200, 0.30, 1, 0, 501, 1, 0.05, &UNIFORM},
+    {"one soft sphere", 3, 1, 0.01, 1, 0, 12, 1, 0.3, &UNIFORM},
     {"mixture of soft spheres", 3, 300, 0.40, 1.2, 0, 24, 1.3, 0.1, &NORMAL},
 };
 enum { SCENES_COUNT = sizeof SCENES / sizeof *SCENES };
@@ -169,7 +173,7 @@ START_TEST(splits_and_resumes_do_not_show) {
 END_TEST
 
 START_TEST(nothing_overlaps_after_ten_million_trials) {
-    static const int hard[] = {0, 5, 8};
+    static const int hard[] = {0, 5, 8}; // of SCENES
     const Scene *scene = &SCENES[hard[_i]];
     State *state = state_of(scene);
     run_scene(scene, (int)cpu_path(), state, 10000000);
