@@ -100,17 +100,25 @@ KERNEL Seen seen_after(Seen seen, const uint32_t *list, uint32_t entries, uint32
     return seen;
 }
 
+// Adds what further neighbours tell.
+KERNEL void look_on(const bool alike, const Glass *glass, Whole place, Rows rows, unsigned *near,
+                    unsigned *overlap) {
+    const Whole next = apart(alike, glass, place, rows);
+    *near |= below(!alike, next, glass->maybe);
+    *overlap |= below(!alike, next, glass->surely);
+}
+
 KERNEL Verdict look_for_overlaps(const bool alike, const Glass *glass, __m128i to, const Seen *seen,
                                  const uint32_t *list, uint32_t entries) {
     const Whole place = all_rows_low(to);
     const Whole first = apart(alike, glass, place, seen->rows[0]);
     unsigned near = below(!alike, first, glass->leashed) ^ 1,
              overlap = below(!alike, first, glass->never_anchor);
-    for (uint32_t n = LANES; __builtin_expect(n < HARD_ENTRIES || n < entries, 0); n += LANES) {
-        const Rows rows = n < HARD_ENTRIES ? seen->rows[n / LANES] : rows_of(glass, list + n);
-        const Whole next = apart(alike, glass, place, rows);
-        near |= below(!alike, next, glass->maybe);
-        overlap |= below(!alike, next, glass->surely);
+    for (uint32_t k = 1; k < HARD_ENTRIES / LANES; k++) {
+        look_on(alike, glass, place, seen->rows[k], &near, &overlap);
+    }
+    for (uint32_t n = HARD_ENTRIES; __builtin_expect(n < entries, 0); n += LANES) {
+        look_on(alike, glass, place, rows_of(glass, list + n), &near, &overlap);
     }
     return (Verdict){near == 0, overlap != 0};
 }
