@@ -169,7 +169,7 @@ static void print_cost(const Plan *plan) {
     print_seconds(seconds);
     printf(" per replica, ");
     print_seconds(seconds * ceil(replicas / cores));
-    printf(" for all on %.0f cores, without packing\n", cores);
+    printf(" for all on %.0f cores, without packing and measuring\n", cores);
 }
 
 static void print_theory(const TheoryPlan *theory) {
@@ -258,7 +258,7 @@ static Status print_sweep(const ConfigPoints *points) {
     }
     printf("          about ");
     print_seconds(sum / processors);
-    printf(" for all on %.0f cores, without packing\n", processors);
+    printf(" for all on %.0f cores, without packing and measuring\n", processors);
     return OK;
 }
 
