@@ -197,7 +197,8 @@ KERNEL unsigned may_meet(const int dimension, const int sheared, const Sieve *si
         sketch_separate_2d(i, j, r, g);
     else
         sketch_separate_3d(i, j, r, g);
-    if (sheared && __builtin_expect(some_across(r[1], sieve->half_edge[1]), 0)) {
+    // After a collision the answer comes late: a branch foretold wrongly would cost more.
+    if (sheared && (gone || __builtin_expect(some_across(r[1], sieve->half_edge[1]), 0))) {
         g[0] = wides_lean(g[0], r[1], sieve->half_edge[1], sieve->offset_then);
         r[0] = wides_lean(r[0], r[1], sieve->half_edge[1], sieve->offset);
     }
