@@ -64,7 +64,6 @@ void figure_map_script(Text *script, const Figure *figure) {
              "'%s'\n"
              "set output '%s.svg'\n"
              "set datafile separator ','\n"
-             "set datafile missing NaN\n"
              "data = '%s.csv'\n"
              "set border linewidth 1.2\n"
              "set tics out scale 0.8\n"
@@ -82,5 +81,7 @@ void figure_map_script(Text *script, const Figure *figure) {
     text_add(script, "set xrange [%.10g:%.10g]\nset yrange [%.10g:%.10g]\n", x->values[0] - half_x,
              x->values[x->count - 1] + half_x, y->values[0] - half_y,
              y->values[y->count - 1] + half_y);
+    // Cells without a number must stay in the grid: were they called missing, all that follow would
+    // be drawn one place too early.
     text_put(script, "plot data using 1:2:3 every ::1 with image pixels\n");
 }
