@@ -6,7 +6,7 @@
 set -eu
 build=$(cd "${1:-build}" && pwd)
 cd "$(dirname "$0")/.."
-objects=$build/CMakeFiles/perrin.dir/src
+objects=$build/CMakeFiles/libperrin.dir/src
 [ -d "$objects" ] || { echo "prefixes: no library in $build; make build first" >&2; exit 1; }
 
 (cd "$objects" && find . -name '*.o' | sort | xargs nm -A -g --defined-only) | awk '
