@@ -354,6 +354,7 @@ static Status read_itt(const Node *map, Plan *plan) {
     TRY(options_default(&itt_options, &plan->itt));
     TRY(read_section("itt", &itt_options, &plan->itt, NULL, map, true));
     plan->itt.given = true;
+    itt_complete(&plan->itt);
     plan->ensemble.replicas = 1;
     return OK;
 }

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "itt/direct.h"
 #include "itt/flow.h"
+#include "itt/input.h"
 #include "itt/put.h"
 #include "itt/transient.h"
 #include "mct/critical.h"
@@ -32,6 +33,7 @@ struct Itt {
     const IttPlan *plan;
     Step step;
     double packing_fraction;
+    Measured *measured; // structure in place of the closure's; NULL: none
     Plane *plane;
     Direct *direct;
     Transient *transient;
@@ -44,12 +46,14 @@ struct Itt {
 
 static Status find_critical(Itt *itt, Results *results) {
     CriticalPoint *point = NULL;
+    const Measured *measured = itt->measured;
     const CriticalSearch search = {.mixture = DISCS,
                                    .closure = (Closure)itt->plan->structure,
                                    .count = CRITICAL_WAVES,
                                    .last = CRITICAL_LAST,
-                                   .low = CRITICAL_LOW,
-                                   .high = CRITICAL_HIGH};
+                                   .low = measured ? measured_lowest(measured) : CRITICAL_LOW,
+                                   .high = measured ? measured_highest(measured) : CRITICAL_HIGH,
+                                   .measured = measured};
     TRY(critical_find(&point, &search));
     const double critical = point->packing_fraction;
     critical_free(point);
@@ -66,6 +70,10 @@ static Status tabulate(Itt *itt, Oz *oz, double spacing, Results *results) {
     TRY(oz_solve(oz, itt->packing_fraction, &s));
     TRY(record_put_number(results, "packing_fraction", "", "Packing fraction of the discs.",
                           itt->packing_fraction));
+    if (itt->measured)
+        TRY(results_put_health(results, "structure_misfit",
+                               "mean square of (c - fit)/error of the measured structure", NAN,
+                               measured_misfit(itt->measured)));
     TRY(results_put_health(results, "structure_residual",
                            "largest residual of the closure, where it is solved numerically", 1e-8,
                            oz_effort(oz).residual));
@@ -77,7 +85,8 @@ static Status solve_structure(Itt *itt, Results *results) {
     const double spacing = TABLE_END * itt->plan->last_wave_number / TABLE;
     Oz *oz = NULL;
     for (size_t i = 0; i < TABLE; i++) wave_number[i] = direct_wave_number(spacing, i);
-    TRY(oz_create(&oz, (Closure)itt->plan->structure, &DISCS, wave_number, TABLE));
+    TRY(itt->measured ? oz_create_measured(&oz, itt->measured, wave_number, TABLE)
+                      : oz_create(&oz, (Closure)itt->plan->structure, &DISCS, wave_number, TABLE));
     const Status status = tabulate(itt, oz, spacing, results);
     oz_free(oz);
     itt->step = STEP_TRANSIENTS;
@@ -250,6 +259,15 @@ static Status solve_transients(Itt *itt, Results *results) {
 
 // ---- The whole ---------------------------------------------------------------------------------
 
+static Status read_structure(Itt *itt) {
+    Measurements *measurements = NULL;
+    if (itt->plan->structure != CLOSURE_MEASURED) return OK;
+    TRY(itt_read_input(&measurements, itt->plan));
+    const Status status = measurements_fit(&itt->measured, measurements, 0, 0);
+    measurements_free(measurements);
+    return status;
+}
+
 Status itt_create(Itt **out, const IttPlan *plan) {
     Itt *itt = NULL;
     *out = NULL;
@@ -257,8 +275,12 @@ Status itt_create(Itt **out, const IttPlan *plan) {
     itt->plan = plan;
     itt->packing_fraction = plan->packing_fraction;
     itt->step = plan->packing_fraction > 0 ? STEP_STRUCTURE : STEP_CRITICAL;
-    *out = itt;
-    return OK;
+    const Status status = read_structure(itt);
+    if (status == OK)
+        *out = itt;
+    else
+        itt_free(itt);
+    return status;
 }
 
 void itt_free(Itt *itt) {
@@ -268,6 +290,7 @@ void itt_free(Itt *itt) {
     transient_free(itt->transient);
     plane_free(itt->plane);
     direct_free(itt->direct);
+    measured_free(itt->measured);
     memory_free(itt);
 }
 

@@ -11,6 +11,8 @@
 typedef struct IttPlan {
     bool given;                          // false: no run of this theory
     int64_t structure;                   // a Closure
+    char file[OPTION_TEXT_SIZE];         // of CLOSURE_MEASURED, as measurements_read takes it
+    char stage[OPTION_TEXT_SIZE];        // likewise
     double packing_fraction, separation; // one of them: separation is phi/phi_c - 1
     double spacing, last_wave_number;
     double shear_rate;  // in D0/d^2
@@ -24,7 +26,10 @@ typedef struct IttPlan {
 
 extern const OptionTable itt_options;
 
+void itt_complete(IttPlan *plan);      // what follows from other keys: a file is a structure
 Status itt_check(const IttPlan *plan); // BAD_DATA with a sentence
+// Likewise, whether files that are read are there and fit.
+Status itt_check_input(const IttPlan *plan);
 size_t itt_memory(const IttPlan *plan);
 double itt_seconds(const IttPlan *plan); // rough
 const char *itt_structure_name(const IttPlan *plan);

@@ -3,6 +3,7 @@
 #include "itt/itt.h"
 
 #include "base/constants.h"
+#include "itt/input.h"
 #include "itt/transient.h"
 #include "oz/oz.h"
 
@@ -15,8 +16,20 @@ static const Option rows[] = {
      .fallback = CLOSURE_PERCUS_YEVICK,
      .unit = "",
      .about = "Where the structure factor at rest comes from: a closure of the Ornstein-Zernike "
-              "equation, or a closed form.",
+              "equation, or a closed form; or a simulation of equal discs, as {file: results.h5}.",
      .choices = closure_names},
+    {.name = "structure.file",
+     .type = OPTION_TEXT,
+     .offset = offsetof(IttPlan, file),
+     .unit = "",
+     .about = "A results.h5, a run directory, or a folder of such with a packing fraction each, as "
+              "a sweep makes: structure_factor was observed there, best up to 40/d in shells of "
+              "0.1. Relative paths begin where perrin is run."},
+    {.name = "structure.stage",
+     .type = OPTION_TEXT,
+     .offset = offsetof(IttPlan, stage),
+     .unit = "",
+     .about = "The stage whose structure_factor is read; empty: the only one that has it."},
     {.name = "packing_fraction",
      .type = OPTION_REAL,
      .offset = offsetof(IttPlan, packing_fraction),
@@ -125,10 +138,14 @@ static Status check_wave_numbers(const IttPlan *plan) {
     return OK;
 }
 
+void itt_complete(IttPlan *plan) {
+    if (plan->file[0]) plan->structure = CLOSURE_MEASURED;
+}
+
 Status itt_check(const IttPlan *plan) {
-    if (plan->structure == CLOSURE_MEASURED)
-        return status_fail(BAD_DATA, "structure = %s is not for itt, but for the section theory",
-                           itt_structure_name(plan));
+    if (plan->structure == CLOSURE_MEASURED && !plan->file[0])
+        return status_fail(BAD_DATA, "a measured structure needs a file; write structure: {file: "
+                                     "results.h5}");
     if (plan->structure == CLOSURE_VERLET_WEIS)
         return status_fail(BAD_DATA, "structure = %s is for spheres; itt is for discs",
                            itt_structure_name(plan));
@@ -147,6 +164,42 @@ Status itt_check(const IttPlan *plan) {
     return check_wave_numbers(plan);
 }
 
+static const double DIAMETER = 1e-2; // how far that of a file may be from 1
+
+static Status check_measurements(const IttPlan *plan, const Measurements *measurements) {
+    const Mixture *mixture = measurements_mixture(measurements);
+    if (mixture->dimension != 2 || mixture->species != 1 ||
+        fabs(mixture->diameter[0] - 1) > DIAMETER)
+        return status_fail(BAD_DATA,
+                           "structure.file = %s: it is not of discs of one diameter, 1, which itt "
+                           "is for",
+                           plan->file);
+    if (plan->separation != 0 && measurements_count(measurements) < 2)
+        return status_fail(BAD_DATA,
+                           "structure.file = %s: separation is from the glass transition, which is "
+                           "looked for between packing fractions; structure factors of two at "
+                           "least are needed",
+                           plan->file);
+    return OK;
+}
+
+Status itt_read_input(Measurements **out, const IttPlan *plan) {
+    TRY(measurements_read(out, plan->file, plan->stage));
+    const Status status = check_measurements(plan, *out);
+    if (status == OK) return OK;
+    measurements_free(*out);
+    *out = NULL;
+    return status;
+}
+
+Status itt_check_input(const IttPlan *plan) {
+    Measurements *measurements = NULL;
+    if (plan->structure != CLOSURE_MEASURED) return OK;
+    TRY(itt_read_input(&measurements, plan));
+    measurements_free(measurements);
+    return OK;
+}
+
 size_t itt_memory(const IttPlan *plan) {
     const TransientSettings settings = {plan->shear_rate, (size_t)plan->block, plan->tagged != 0};
     return transient_memory(plan->last_wave_number, plan->spacing, &settings);
@@ -163,5 +216,5 @@ double itt_seconds(const IttPlan *plan) {
 }
 
 const char *itt_structure_name(const IttPlan *plan) {
-    return closure_names[plan->structure];
+    return plan->structure == CLOSURE_MEASURED ? plan->file : closure_names[plan->structure];
 }

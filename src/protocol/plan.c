@@ -223,6 +223,7 @@ Status plan_check(const Plan *plan) {
 }
 
 Status plan_check_input(const Plan *plan) {
+    if (plan->itt.given) return itt_check_input(&plan->itt);
     return plan->theory.species_count > 0 ? theory_check_input(&plan->theory) : OK;
 }
 

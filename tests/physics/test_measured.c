@@ -2,6 +2,7 @@
 // Measured structure factors as input of the theory: what a closure gives, sampled with the noise
 // of Gaussian densities, leads back to the transition of the closure; and files that lie about
 // themselves are refused.
+#include "itt/itt.h"
 #include "mct/critical.h"
 #include "numerics/small.h"
 #include "oz/oz.h"
@@ -245,6 +246,61 @@ START_TEST(a_folder_of_runs_gives_the_transition_with_its_error) {
 }
 END_TEST
 
+// ---- Under shear --------------------------------------------------------------------------------
+
+static double stress_of(const IttPlan *plan) {
+    Itt *itt = NULL;
+    Results *results = NULL;
+    ck_assert_msg(itt_check(plan) == OK, "%s", status_sentence());
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_msg(itt_create(&itt, plan) == OK, "%s", status_sentence());
+    while (!itt_finished(itt))
+        ck_assert_msg(itt_advance(itt, results) == OK, "%s", status_sentence());
+    const double stress = results_find_scalar(results, "theory", "shear_stress")->values[0];
+    itt_free(itt);
+    results_free(results);
+    return stress;
+}
+
+// The stress is that of the closed form that was sampled, at a packing fraction that is off by no
+// more than the transition may be: one in a thousand.
+START_TEST(discs_under_shear_may_have_a_measured_structure) {
+    static const char folder[] = "measured_flows";
+    Samples *samples = sampled(CLOSURE_FUNDAMENTAL, &DISCS, 500);
+    char path[64];
+    ck_assert_int_eq(system("rm -rf measured_flows && mkdir measured_flows"), 0);
+    for (size_t n = 0; n < STATES; n++) {
+        snprintf(path, sizeof path, "%s/%zu", folder, n);
+        write_run(samples, n, "1", path);
+    }
+    IttPlan plan = {.given = true,
+                    .structure = CLOSURE_FUNDAMENTAL,
+                    .packing_fraction = DENSITIES[1],
+                    .spacing = 0.8,
+                    .last_wave_number = 16,
+                    .shear_rate = 1,
+                    .last_strain = 6,
+                    .block = 32,
+                    .first_time = 1e-3,
+                    .times_per_decade = 5};
+    IttPlan below = plan, above = plan;
+    below.packing_fraction *= 1 - 1e-3;
+    above.packing_fraction *= 1 + 1e-3;
+    const double least = stress_of(&below), most = stress_of(&above);
+    snprintf(plan.file, sizeof plan.file, "%s", folder);
+    itt_complete(&plan);
+    ck_assert_msg(itt_check_input(&plan) == OK, "%s", status_sentence());
+    const double stress = stress_of(&plan);
+    ck_assert(stress > least && stress < most);
+    snprintf(plan.file, sizeof plan.file, "%s/0",
+             folder); // one state: no transition to be far from
+    plan.packing_fraction = 0;
+    plan.separation = 0.01;
+    ck_assert_int_eq(itt_check_input(&plan), BAD_DATA);
+    free(samples);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("measured");
     TCase *tests = tcase_create("structure");
@@ -254,6 +310,7 @@ int main(void) {
     tcase_add_test(tests, what_was_not_measured_follows);
     tcase_add_test(tests, what_cannot_be_is_refused);
     tcase_add_test(tests, a_folder_of_runs_gives_the_transition_with_its_error);
+    tcase_add_test(tests, discs_under_shear_may_have_a_measured_structure);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);
