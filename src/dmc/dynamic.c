@@ -143,7 +143,8 @@ static double predicted_cycle(const Dynamic *set, const System *system) {
 // it has gaps of kT/F on average, and drifted trials of the spread w are accepted as erfc(F w/sqrt
 // 8), so that a cycle is worth at most 0.66/(D F^2), however long the trials: in what a bath's
 // cycle of acceptance A is worth, F step sqrt A = 2. Tracers were seen to run away from 1.5 to 1.6
-// on at a packing fraction of 0.5, from 1.6 to 2.0 at 0.35, above 2.9 at 0.2.
+// on at a packing fraction of 0.5, from 1.6 to 2.0 (Pe = 30) or 2.3 to 3.6 (Pe = 100)
+// at 0.35, above 2.9 at 0.2.
 static double pressed_step(const Dynamic *set, const System *system, const Pull *pull) {
     static const double PRESSED = 1.5;
     const size_t s = tracer_species(pull, system);

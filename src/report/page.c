@@ -226,8 +226,8 @@ void page_numbers(Text *page, const Results *results) {
     text_put(page,
              "</table>\n<p class=\"under\">In brackets the standard error over the n replicas, "
              "in units of the last digits; σ is that error alone, and references have errors of "
-             "their own and are of equilibrium, also beside a stage that is driven. Lengths in d, "
-             "energies in kT, times in d²/D₀, in Newtonian stages in "
+             "their own and are of equilibrium. Lengths in d, energies in kT, "
+             "times in d²/D₀, in Newtonian stages in "
              "d √(m/kT).");
     put_sources(page, results);
     text_put(page, "</p>\n");
