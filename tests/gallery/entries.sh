@@ -5,25 +5,44 @@
 set -u
 perrin=$1 gallery=$2
 failed=0
+
+# points.csv: a line per point, its run file and then its settings. Commas within quotes are theirs.
+points() {
+    awk '!/^#/ && !/^point,/ {
+        split("", field)
+        n = 1
+        quoted = 0
+        for (i = 1; i <= length($0); i++) {
+            c = substr($0, i, 1)
+            if (c == "\"") quoted = !quoted
+            else if (c == "," && !quoted) n++
+            else field[n] = field[n] c
+        }
+        print (field[5] == "" ? "run.yaml" : field[5]), field[4]
+    }' "$1"
+}
+
 for entry in "$gallery"/*/; do
+    set -f # settings hold lists in brackets
     for file in README.md run.yaml full.txt points.csv measures.csv expected.csv figure.gp; do
         [ -s "$entry$file" ] || { echo "$entry$file is missing"; failed=1; }
     done
-    full=$(grep -v '^#' "$entry/full.txt" | tr '\n' ' ')
-    points=$(grep -v -e '^#' -e '^point,' "$entry/points.csv" | cut -d, -f4,5 |
-        sed -e 's/ /;/g' -e 's/^$/-/' -e 's/^,/-,/')
-    for point in $points; do
-        settings=$(echo "${point%%,*}" | sed 's/{results}/results/' | tr ';' ',')
+    full=$(grep -v '^#' "${entry}full.txt" | tr '\n' ' ')
+    while read -r file settings; do
         # A run file of its own reads what points before it give, which is not there.
-        case $point in *,?*) file=${point#*,} all=--all ;; *) file=run.yaml all= ;; esac
+        all=
+        [ "$file" = run.yaml ] || all=--all
         for more in "" "$full"; do
             [ "$file" = run.yaml ] || more=
             set --
-            for setting in $(echo "$settings" | tr ',' ' ') $more; do
-                [ "$setting" = - ] || set -- "$@" --set "$setting"
+            for setting in $(echo "$settings" | sed 's/{results}/results/') $more; do
+                set -- "$@" --set "$setting"
             done
-            "$perrin" check $all "$entry/$file" "$@" >/dev/null || { echo "in $entry: $*"; failed=1; }
+            "$perrin" check $all "$entry$file" "$@" >/dev/null </dev/null ||
+                { echo "in $entry: $*"; failed=1; }
         done
-    done
+    done <<END
+$(points "${entry}points.csv")
+END
 done
 exit $failed
