@@ -68,14 +68,15 @@ vectors)
     ;;
 resume | kills)
     # Ended later at every attempt, so that a slow machine comes to an end as well. A signal that
-    # comes before the program can take it just kills.
+    # comes before the program can take it just kills. In the foreground, since timeout would else
+    # be killed as well and not wait until the run has let go of its lock.
     signal=TERM
     if [ "$what" = kills ]; then signal=KILL; fi
     resumed=0
     status=75
     for attempt in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do
         status=0
-        timeout -s $signal --preserve-status "$(echo "$attempt" | awk '{ print 0.05 * $1 }')" \
+        timeout --foreground -s $signal --preserve-status "$(echo "$attempt" | awk '{ print 0.05 * $1 }')" \
             "$perrin" run "$here/$name.yaml" -o resumed --quiet --threads 2 >resumed.out 2>&1 ||
             status=$?
         case $status in
