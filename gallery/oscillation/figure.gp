@@ -15,7 +15,7 @@ set xrange [0:1]
 set xlabel "t ω/2π"
 plot for [i = 1:4] "glass-".amplitude(i)."-cycle.csv" using 1:2 with lines \
      linetype i title "amplitude ".amplitude(i)
-set key maxrows auto
+set key maxrows 3
 set logscale xy
 set yrange [1e-4:1e2]
 set format "10^{%L}"
@@ -26,7 +26,8 @@ set key bottom left
 glass(measure, value) = (strcol(2) eq "glass" ? of(measure, 4, value) : NaN)
 plot "measured.csv" using 3:(glass("storage", $5)):6 with yerrorbars linetype 1 title "G', glass", \
      "" using 3:(glass("loss", $5)):6 with yerrorbars linetype 2 title "G''", \
-     "" using 3:(glass("third", $5)):6 with yerrorbars linetype 3 title "third harmonic over first, a number"
+     "" using 3:(glass("third", $5)):6 with yerrorbars linetype 3 title "third harmonic over first"
+set key maxrows auto
 set xrange [0.5:200]
 set xlabel "ω in D_0/d^2"
 set ylabel "moduli in kT/d^2"
