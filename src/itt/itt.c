@@ -22,7 +22,6 @@ static const double UNFINISHED = 1e-3; // of the stress, in what its integral st
 
 static const double FIRST_STRAIN = 1e-3; // from which the stress is kept
 
-static const Mixture DISCS = {2, 1, {1}, {1}};
 // Of the search for the glass transition: five digits of its packing fraction.
 enum { CRITICAL_WAVES = 203 };
 static const double CRITICAL_LAST = 40, CRITICAL_LOW = 0.6, CRITICAL_HIGH = 0.76;
@@ -47,7 +46,7 @@ struct Itt {
 static Status find_critical(Itt *itt, Results *results) {
     CriticalPoint *point = NULL;
     const Measured *measured = itt->measured;
-    const CriticalSearch search = {.mixture = DISCS,
+    const CriticalSearch search = {.mixture = itt_discs,
                                    .closure = (Closure)itt->plan->structure,
                                    .count = CRITICAL_WAVES,
                                    .last = CRITICAL_LAST,
@@ -85,8 +84,9 @@ static Status solve_structure(Itt *itt, Results *results) {
     const double spacing = TABLE_END * itt->plan->last_wave_number / TABLE;
     Oz *oz = NULL;
     for (size_t i = 0; i < TABLE; i++) wave_number[i] = direct_wave_number(spacing, i);
-    TRY(itt->measured ? oz_create_measured(&oz, itt->measured, wave_number, TABLE)
-                      : oz_create(&oz, (Closure)itt->plan->structure, &DISCS, wave_number, TABLE));
+    TRY(itt->measured
+            ? oz_create_measured(&oz, itt->measured, wave_number, TABLE)
+            : oz_create(&oz, (Closure)itt->plan->structure, &itt_discs, wave_number, TABLE));
     const Status status = tabulate(itt, oz, spacing, results);
     oz_free(oz);
     itt->step = STEP_TRANSIENTS;
@@ -261,8 +261,9 @@ static Status solve_transients(Itt *itt, Results *results) {
 
 static Status read_structure(Itt *itt) {
     Measurements *measurements = NULL;
+    const MeasurementsInput input = itt_input(itt->plan);
     if (itt->plan->structure != CLOSURE_MEASURED) return OK;
-    TRY(itt_read_input(&measurements, itt->plan));
+    TRY(measurements_read(&measurements, &input));
     const Status status = measurements_fit(&itt->measured, measurements, 0, 0);
     measurements_free(measurements);
     return status;

@@ -164,40 +164,15 @@ Status itt_check(const IttPlan *plan) {
     return check_wave_numbers(plan);
 }
 
-static const double DIAMETER = 1e-2; // how far that of a file may be from 1
+const Mixture itt_discs = {2, 1, {1}, {1}};
 
-static Status check_measurements(const IttPlan *plan, const Measurements *measurements) {
-    const Mixture *mixture = measurements_mixture(measurements);
-    if (mixture->dimension != 2 || mixture->species != 1 ||
-        fabs(mixture->diameter[0] - 1) > DIAMETER)
-        return status_fail(BAD_DATA,
-                           "structure.file = %s: it is not of discs of one diameter, 1, which itt "
-                           "is for",
-                           plan->file);
-    if (plan->separation != 0 && measurements_count(measurements) < 2)
-        return status_fail(BAD_DATA,
-                           "structure.file = %s: separation is from the glass transition, which is "
-                           "looked for between packing fractions; structure factors of two at "
-                           "least are needed",
-                           plan->file);
-    return OK;
-}
-
-Status itt_read_input(Measurements **out, const IttPlan *plan) {
-    TRY(measurements_read(out, plan->file, plan->stage));
-    const Status status = check_measurements(plan, *out);
-    if (status == OK) return OK;
-    measurements_free(*out);
-    *out = NULL;
-    return status;
+MeasurementsInput itt_input(const IttPlan *plan) {
+    return (MeasurementsInput){plan->file, plan->stage, itt_discs, plan->separation != 0};
 }
 
 Status itt_check_input(const IttPlan *plan) {
-    Measurements *measurements = NULL;
-    if (plan->structure != CLOSURE_MEASURED) return OK;
-    TRY(itt_read_input(&measurements, plan));
-    measurements_free(measurements);
-    return OK;
+    const MeasurementsInput input = itt_input(plan);
+    return plan->structure == CLOSURE_MEASURED ? measurements_check(&input) : OK;
 }
 
 size_t itt_memory(const IttPlan *plan) {

@@ -15,6 +15,7 @@
 #include <sys/stat.h>
 
 enum { PATH = 1024, RUNS_MOST = 32 };
+static const double COMPOSITION = 1e-2; // how far diameters and fractions may be off
 static const char OBSERVABLE[] = "structure_factor", MIXTURE_FACT[] = "mixture";
 
 typedef struct MeasuredRun {
@@ -105,10 +106,11 @@ static Status copy_series(MeasuredRun *run, const ResultSeries *series, size_t r
     return OK;
 }
 
-static bool same_mixture(const Mixture *a, const Mixture *b) {
+static bool alike(const Mixture *a, const Mixture *b, double tolerance) {
     bool same = a->dimension == b->dimension && a->species == b->species;
-    for (size_t s = 0; s < a->species && same; s++)
-        same = a->diameter[s] == b->diameter[s] && a->fraction[s] == b->fraction[s];
+    for (size_t s = 0; s < b->species && same; s++)
+        same = fabs(a->diameter[s] - b->diameter[s]) <= tolerance * b->diameter[s] &&
+               fabs(a->fraction[s] - b->fraction[s]) <= tolerance;
     return same;
 }
 
@@ -124,7 +126,7 @@ static Status take_results(Measurements *m, const Results *results, const char *
         return status_fail(BAD_DATA, "more than %d results.h5 with %s", RUNS_MOST, OBSERVABLE);
     MeasuredRun *run = &m->runs[m->count];
     TRY(read_mixture(results, path, &mixture, &run->packing_fraction));
-    if (m->count > 0 && !same_mixture(&mixture, &m->mixture))
+    if (m->count > 0 && !alike(&mixture, &m->mixture, 0))
         return status_fail(BAD_DATA, "%s is of another mixture than those before it", path);
     m->mixture = mixture;
     if (series->axis[0].count != mixture_pairs(&mixture) + 1)
@@ -191,14 +193,29 @@ static int by_packing_fraction(const void *a, const void *b) {
     return (one > other) - (one < other);
 }
 
-Status measurements_read(Measurements **out, const char *path, const char *stage) {
+static Status check(const Measurements *m, const MeasurementsInput *input) {
+    if (m->count == 0)
+        return status_fail(BAD_DATA, "there is no %s%s%s in %s", OBSERVABLE,
+                           input->stage[0] ? " of a stage " : "", input->stage, input->path);
+    if (!alike(&m->mixture, &input->mixture, COMPOSITION))
+        return status_fail(BAD_DATA,
+                           "structure.file = %s: the species there are not those here: the "
+                           "dimension, their order, diameters and fractions must be the same",
+                           input->path);
+    if (input->transition && m->count < 2)
+        return status_fail(BAD_DATA,
+                           "structure.file = %s: the glass transition is looked for between "
+                           "packing fractions; structure factors of two at least are needed",
+                           input->path);
+    return OK;
+}
+
+Status measurements_read(Measurements **out, const MeasurementsInput *input) {
     Measurements *m = NULL;
     *out = NULL;
     TRY(NEW(m));
-    Status status = take_path(m, path, stage);
-    if (status == OK && m->count == 0)
-        status = status_fail(BAD_DATA, "there is no %s%s%s in %s", OBSERVABLE,
-                             stage[0] ? " of a stage " : "", stage, path);
+    Status status = take_path(m, input->path, input->stage);
+    if (status == OK) status = check(m, input);
     if (status != OK) {
         measurements_free(m);
         return status;
@@ -206,6 +223,13 @@ Status measurements_read(Measurements **out, const char *path, const char *stage
     qsort(m->runs, m->count, sizeof *m->runs, by_packing_fraction);
     *out = m;
     return OK;
+}
+
+Status measurements_check(const MeasurementsInput *input) {
+    Measurements *m = NULL;
+    const Status status = measurements_read(&m, input);
+    measurements_free(m);
+    return status;
 }
 
 void measurements_free(Measurements *m) {
@@ -218,10 +242,6 @@ void measurements_free(Measurements *m) {
 
 const Mixture *measurements_mixture(const Measurements *m) {
     return &m->mixture;
-}
-
-size_t measurements_count(const Measurements *m) {
-    return m->count;
 }
 
 size_t measurements_replicas(const Measurements *m) {

@@ -5,16 +5,23 @@
 
 #include "oz/measured.h"
 
+#include <stdbool.h>
+
 typedef struct Measurements Measurements;
 
-// `path`: a results.h5, a run directory, or a folder of run directories such as a sweep makes.
-// `stage`: which of a run's stages; "": the only one in which structure_factor was observed.
-// BAD_DATA with a sentence if there is none, or if the mixtures are not the same.
-Status measurements_read(Measurements **out, const char *path, const char *stage);
+typedef struct MeasurementsInput {
+    const char *path;  // a results.h5, a run directory, or a folder of such, as a sweep makes
+    const char *stage; // of the run; "": the only one in which structure_factor was observed
+    Mixture mixture;   // diameters and fractions to 1 %
+    bool transition;   // is looked for between packing fractions: two at least
+} MeasurementsInput;
+
+// BAD_DATA with a sentence if there is none, or of another mixture.
+Status measurements_read(Measurements **out, const MeasurementsInput *input);
+Status measurements_check(const MeasurementsInput *input); // the same; keeps nothing
 void measurements_free(Measurements *measurements);
 
 const Mixture *measurements_mixture(const Measurements *measurements);
-size_t measurements_count(const Measurements *measurements);    // of packing fractions
 size_t measurements_replicas(const Measurements *measurements); // of the run with the fewest
 
 // Smoothed: of all replicas, or without every replica whose number, modulo `groups` > 1, is

@@ -291,41 +291,23 @@ Status theory_check(const TheoryPlan *plan) {
     return OK;
 }
 
-static const double COMPOSITION =
-    1e-2; // how far diameters and fractions may be from those of a file
-
-static Status check_mixture(const TheoryPlan *plan, const Mixture *mixture) {
-    bool same = mixture->dimension == plan->dimension && mixture->species == plan->species_count;
-    for (size_t a = 0; a < plan->species_count && same; a++)
-        same = fabs(mixture->diameter[a] / plan->species[a].diameter - 1) < COMPOSITION &&
-               fabs(mixture->fraction[a] - plan->species[a].fraction) < COMPOSITION;
-    return same ? OK
-                : status_fail(BAD_DATA,
-                              "structure.file = %s: the species there are not those here: their "
-                              "order, diameters and fractions must be the same",
-                              plan->input.file);
+Mixture theory_mixture(const TheoryPlan *plan) {
+    Mixture mixture = {.dimension = (int)plan->dimension, .species = plan->species_count};
+    for (size_t a = 0; a < mixture.species; a++) {
+        mixture.diameter[a] = plan->species[a].diameter;
+        mixture.fraction[a] = plan->species[a].fraction;
+    }
+    return mixture;
 }
 
-Status theory_read_input(Measurements **out, const TheoryPlan *plan) {
-    TRY(measurements_read(out, plan->input.file, plan->input.stage));
-    Status status = check_mixture(plan, measurements_mixture(*out));
-    if (status == OK && wants_transition(plan) && measurements_count(*out) < 2)
-        status = status_fail(BAD_DATA,
-                             "structure.file = %s: the glass transition is looked for between "
-                             "packing fractions; structure factors of two at least are needed",
-                             plan->input.file);
-    if (status == OK) return OK;
-    measurements_free(*out);
-    *out = NULL;
-    return status;
+MeasurementsInput theory_input(const TheoryPlan *plan) {
+    return (MeasurementsInput){plan->input.file, plan->input.stage, theory_mixture(plan),
+                               wants_transition(plan)};
 }
 
 Status theory_check_input(const TheoryPlan *plan) {
-    Measurements *measurements = NULL;
-    if (plan->structure != CLOSURE_MEASURED) return OK;
-    TRY(theory_read_input(&measurements, plan));
-    measurements_free(measurements);
-    return OK;
+    const MeasurementsInput input = theory_input(plan);
+    return plan->structure == CLOSURE_MEASURED ? measurements_check(&input) : OK;
 }
 
 size_t theory_memory(const TheoryPlan *plan) {

@@ -50,15 +50,6 @@ struct Theory {
     double share;     // of the step that is done
 };
 
-static Mixture mixture_of(const TheoryPlan *plan) {
-    Mixture mixture = {.dimension = (int)plan->dimension, .species = plan->species_count};
-    for (size_t a = 0; a < plan->species_count; a++) {
-        mixture.diameter[a] = plan->species[a].diameter;
-        mixture.fraction[a] = plan->species[a].fraction;
-    }
-    return mixture;
-}
-
 static bool wants(const Theory *theory, TheoryPart part) {
     return theory->plan->calculate >> part & 1;
 }
@@ -528,7 +519,8 @@ static void skip_unwanted(Theory *theory) {
 // The mixture is then that of the files: fractions of so many particles.
 static Status read_structure(Theory *theory) {
     const size_t slots = theory_slots(theory->plan);
-    TRY(theory_read_input(&theory->measurements, theory->plan));
+    const MeasurementsInput input = theory_input(theory->plan);
+    TRY(measurements_read(&theory->measurements, &input));
     const size_t replicas = measurements_replicas(theory->measurements);
     theory->mixture = *measurements_mixture(theory->measurements);
     theory->groups = slots < replicas ? slots : replicas;
@@ -554,7 +546,7 @@ Status theory_create(Theory **out, const TheoryPlan *plan) {
     *out = NULL;
     TRY(NEW(theory));
     theory->plan = plan;
-    theory->mixture = mixture_of(plan);
+    theory->mixture = theory_mixture(plan);
     const Status status = prepare(theory);
     if (status == OK)
         *out = theory;
