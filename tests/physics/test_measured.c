@@ -122,6 +122,43 @@ START_TEST(samples_of_a_mixture_do_too) {
 }
 END_TEST
 
+static double *direct_of(Oz *oz, double packing_fraction) {
+    const Structure *s = NULL;
+    double *direct = malloc(SHELLS * sizeof *direct);
+    ck_assert_msg(oz_solve(oz, packing_fraction, &s) == OK, "%s", status_sentence());
+    memcpy(direct, s->direct, SHELLS * sizeof *direct);
+    oz_free(oz);
+    return direct;
+}
+
+// With next to no noise, c(q) is that of the closure. Over what it differs from Percus-Yevick's it
+// was 0.15 % off at a density that was measured, 1 % off between two, by the parabola.
+START_TEST(without_noise_the_direct_correlation_function_comes_back) {
+    static const double densities[] = {0.69, 0.675}, bounds[] = {0.005, 0.02};
+    Samples *samples = sampled(CLOSURE_MODIFIED_VERLET, &DISCS, 20000000);
+    Measured *measured = fitted(samples, &DISCS);
+    for (size_t n = 0; n < 2; n++) {
+        Oz *fit = NULL, *exact = NULL, *reference = NULL;
+        const double *q = samples->wave_number;
+        ck_assert_int_eq(oz_create_measured(&fit, measured, q, SHELLS), OK);
+        ck_assert_int_eq(oz_create(&exact, CLOSURE_MODIFIED_VERLET, &DISCS, q, SHELLS), OK);
+        ck_assert_int_eq(oz_create(&reference, CLOSURE_PERCUS_YEVICK, &DISCS, q, SHELLS), OK);
+        double *found = direct_of(fit, densities[n]), *wanted = direct_of(exact, densities[n]);
+        double *before = direct_of(reference, densities[n]), off = 0, all = 0;
+        for (size_t m = 0; m < SHELLS; m++) {
+            off += pow(found[m] - wanted[m], 2);
+            all += pow(before[m] - wanted[m], 2);
+        }
+        ck_assert_double_lt(sqrt(off / all), bounds[n]);
+        free(found);
+        free(wanted);
+        free(before);
+    }
+    measured_free(measured);
+    free(samples);
+}
+END_TEST
+
 // Beyond the last shell and below the first, and at contact, which no shell sees.
 START_TEST(what_was_not_measured_follows) {
     static const double q[] = {0.02, 45, 52, 60};
@@ -307,6 +344,7 @@ int main(void) {
     tcase_set_timeout(tests, 300);
     tcase_add_test(tests, samples_of_a_closure_freeze_where_it_does);
     tcase_add_test(tests, samples_of_a_mixture_do_too);
+    tcase_add_test(tests, without_noise_the_direct_correlation_function_comes_back);
     tcase_add_test(tests, what_was_not_measured_follows);
     tcase_add_test(tests, what_cannot_be_is_refused);
     tcase_add_test(tests, a_folder_of_runs_gives_the_transition_with_its_error);
