@@ -38,8 +38,9 @@ double curve_mean(const Curve *curve, size_t lag) {
 }
 
 double curve_slope(const Curve *curve, size_t replica, size_t begin, size_t end) {
-    return fit_slope(curve->times + begin, curve_of(curve, replica) + begin, curve->weights + begin,
-                     end - begin);
+    return fit_line(curve->times + begin, curve_of(curve, replica) + begin, curve->weights + begin,
+                    end - begin)
+        .slope;
 }
 
 // The lag that halves [begin, end) in log t.

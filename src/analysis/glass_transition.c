@@ -9,6 +9,9 @@
 // (Weysser, thesis, ch. 3.) The laws are fitted to ln tau with equal weights: what is left is how
 // far they hold, not noise.
 #include "analysis/sweep.h"
+#include "numerics/fit.h"
+
+#include <gsl/gsl_statistics_double.h>
 
 #include <math.h>
 #include <string.h>
@@ -17,7 +20,7 @@ enum { EXPONENTS = 21, FREE_LEAST = 4, FIXED_LEAST = 3 };
 static const double FIRST_EXPONENT = 2, EXPONENT_STEP = 0.1;
 static const double HIGH = 1.2;                     // of 1/e, for a plateau
 static const double NEAREST = 1e-5, FARTHEST = 0.5; // phi_c less the largest phi
-enum { GRID = 100, GOLDEN_STEPS = 60 };
+enum { PLACES = 100 };
 
 // The logarithms of relaxation times that are there.
 typedef struct Times {
@@ -44,64 +47,36 @@ static const PowerLaw NO_LAW = {(double)NAN, (double)NAN, (double)NAN};
 
 // The best amplitude for this phi_c, and exponent unless that is given (not NaN).
 static PowerLaw law_at(const Times *times, double packing_fraction, double exponent) {
-    const double n = (double)times->count;
-    double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
-    for (size_t i = 0; i < times->count; i++) {
-        const double u = -log(packing_fraction - times->phi[i]), v = times->log_tau[i];
-        x += u / n;
-        y += v / n;
-        xx += u * u / n;
-        xy += u * v / n;
-        yy += v * v / n;
+    const size_t n = times->count;
+    double nearness[STATES_MOST], left[STATES_MOST];
+    for (size_t i = 0; i < n; i++) nearness[i] = -log(packing_fraction - times->phi[i]);
+    if (isnan(exponent)) {
+        const Line line = fit_line(nearness, times->log_tau, NULL, n);
+        return (PowerLaw){packing_fraction, line.slope, sqrt(line.misfit / (double)n)};
     }
-    const double gamma = isnan(exponent) ? (xy - x * y) / (xx - x * x) : exponent;
-    const double square = (yy - y * y) - 2 * gamma * (xy - x * y) + gamma * gamma * (xx - x * x);
-    return (PowerLaw){packing_fraction, gamma, sqrt(fmax(0, square))};
+    for (size_t i = 0; i < n; i++) left[i] = times->log_tau[i] - exponent * nearness[i];
+    return (PowerLaw){packing_fraction, exponent, sqrt(gsl_stats_tss(left, 1, n) / (double)n)};
 }
 
-static double largest(const double *values, size_t count) {
-    double most = -INFINITY;
-    for (size_t i = 0; i < count; i++) most = fmax(most, values[i]);
-    return most;
-}
+typedef struct Approach {
+    const Times *times;
+    double exponent; // NaN: free
+    double top;      // the largest packing fraction
+} Approach;
 
-// Golden section in ln(phi_c - phi_max) between two places around the least misfit.
-static PowerLaw refine(const Times *times, double exponent, double top, double from, double to) {
-    static const double GOLDEN = 0.6180339887498949;
-    double a = to - GOLDEN * (to - from), b = from + GOLDEN * (to - from);
-    for (int k = 0; k < GOLDEN_STEPS; k++) {
-        const double at_a = law_at(times, top + exp(a), exponent).misfit,
-                     at_b = law_at(times, top + exp(b), exponent).misfit;
-        if (at_a < at_b) {
-            to = b;
-            b = a;
-            a = to - GOLDEN * (to - from);
-        } else {
-            from = a;
-            a = b;
-            b = from + GOLDEN * (to - from);
-        }
-    }
-    return law_at(times, top + exp((from + to) / 2), exponent);
+static double misfit(double log_distance, const void *of) {
+    const Approach *a = of;
+    return law_at(a->times, a->top + exp(log_distance), a->exponent).misfit;
 }
 
 // None if the misfit falls up to an end of what phi_c may be: there is no sign of a transition.
 static PowerLaw fit(const Times *times, double exponent) {
+    double log_distance;
     if (times->count < (isnan(exponent) ? FREE_LEAST : FIXED_LEAST)) return NO_LAW;
-    const double top = largest(times->phi, times->count);
-    const double step = log(FARTHEST / NEAREST) / (GRID - 1);
-    double least = INFINITY;
-    size_t best = 0;
-    for (size_t k = 0; k < GRID; k++) {
-        const double place = top + NEAREST * exp((double)k * step);
-        const double misfit = law_at(times, place, exponent).misfit;
-        if (!(misfit < least)) continue;
-        least = misfit;
-        best = k;
-    }
-    if (best == 0 || best == GRID - 1) return NO_LAW;
-    const double at = log(NEAREST) + (double)best * step;
-    return refine(times, exponent, top, at - step, at + step);
+    const Approach approach = {times, exponent, gsl_stats_max(times->phi, 1, times->count)};
+    if (!fit_least(misfit, &approach, log(NEAREST), log(FARTHEST), PLACES, &log_distance))
+        return NO_LAW;
+    return law_at(times, approach.top + exp(log_distance), exponent);
 }
 
 static double exponent_of(size_t index) {
@@ -155,20 +130,18 @@ enum { CRITICAL_PLATEAU, PLATEAU_AMPLITUDE, PLATEAU_NUMBERS };
 static void square_root_law(const States *states, double *out) {
     const Times times = times_of(states, states->beside, 0);
     const double critical = fit(&times, NAN).packing_fraction;
-    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    double root[STATES_MOST], plateau[STATES_MOST];
+    size_t count = 0;
     for (size_t i = 0; i < states->count; i++) {
         const double above = states->at[i] / critical - 1, f = states->mean[i];
         if (!(above > 0) || isnan(f) || states->beside[i] > 0) continue;
-        n++;
-        x += sqrt(above);
-        y += f;
-        xx += above;
-        xy += sqrt(above) * f;
+        root[count] = sqrt(above);
+        plateau[count++] = f;
     }
-    const double determinant = n * xx - x * x;
-    const bool there = n >= FIXED_LEAST && determinant > 0;
-    out[CRITICAL_PLATEAU] = there ? (xx * y - x * xy) / determinant : (double)NAN;
-    out[PLATEAU_AMPLITUDE] = there ? (n * xy - x * y) / determinant : (double)NAN;
+    const Line none = {(double)NAN, (double)NAN, (double)NAN};
+    const Line line = count < FIXED_LEAST ? none : fit_line(root, plateau, NULL, count);
+    out[CRITICAL_PLATEAU] = line.intercept;
+    out[PLATEAU_AMPLITUDE] = line.slope;
 }
 
 static const char RELAXATION_TIME[] = "_relaxation_time", SCALED[] = "_scaled",

@@ -58,8 +58,9 @@ static double slope_without(const Decay *decay, int64_t without, double *logarit
         logarithms[k] = log(c); // NaN if noise has made it negative: then there is no number
         weights[k] = c * c;
     }
-    return fit_slope(decay->times + decay->begin, logarithms + decay->begin, weights + decay->begin,
-                     decay->end - decay->begin);
+    return fit_line(decay->times + decay->begin, logarithms + decay->begin, weights + decay->begin,
+                    decay->end - decay->begin)
+        .slope;
 }
 
 // Pseudo-values of tau; of one replica its own tau.

@@ -2,16 +2,73 @@
 // Least squares.
 #include "numerics/fit.h"
 
+#include <gsl/gsl_errno.h>
 #include <gsl/gsl_fit.h>
+#include <gsl/gsl_min.h>
 #include <gsl/gsl_multifit.h>
 
+#include <float.h>
 #include <math.h>
 
-double fit_slope(const double *x, const double *y, const double *weights, size_t count) {
-    double intercept, slope, cov00, cov01, cov11, chi2;
-    gsl_fit_wlinear(x, 1, weights, 1, y, 1, count, &intercept, &slope, &cov00, &cov01, &cov11,
-                    &chi2);
-    return slope;
+Line fit_line(const double *x, const double *y, const double *weights, size_t count) {
+    Line line;
+    double cov00, cov01, cov11;
+    if (weights)
+        gsl_fit_wlinear(x, 1, weights, 1, y, 1, count, &line.intercept, &line.slope, &cov00, &cov01,
+                        &cov11, &line.misfit);
+    else
+        gsl_fit_linear(x, 1, y, 1, count, &line.intercept, &line.slope, &cov00, &cov01, &cov11,
+                       &line.misfit);
+    return line;
+}
+
+typedef struct Search {
+    FitMisfit *misfit;
+    const void *of;
+} Search;
+
+// What is not a number must not end the search: GSL would end the program.
+static double misfit_at(double at, void *search) {
+    const Search *s = search;
+    const double misfit = s->misfit(at, s->of);
+    return isfinite(misfit) ? misfit : DBL_MAX;
+}
+
+static double refine(gsl_function *f, double from, double middle, double to) {
+    static const double NEAR = 1e-10;
+    enum { STEPS_MOST = 100 };
+    gsl_min_fminimizer *brent = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
+    gsl_min_fminimizer_set(brent, f, middle, from, to);
+    for (int k = 0; k < STEPS_MOST; k++) {
+        if (gsl_min_fminimizer_iterate(brent) != GSL_SUCCESS) break;
+        from = gsl_min_fminimizer_x_lower(brent);
+        to = gsl_min_fminimizer_x_upper(brent);
+        if (gsl_min_test_interval(from, to, NEAR, NEAR) == GSL_SUCCESS) break;
+    }
+    middle = gsl_min_fminimizer_x_minimum(brent);
+    gsl_min_fminimizer_free(brent);
+    return middle;
+}
+
+bool fit_least(FitMisfit *misfit, const void *of, double from, double to, size_t places,
+               double *at) {
+    Search search = {misfit, of};
+    gsl_function f = {misfit_at, &search};
+    const double step = (to - from) / (double)(places - 1);
+    double least = DBL_MAX;
+    size_t best = 0;
+    for (size_t k = 0; k < places; k++) {
+        const double here = misfit_at(from + (double)k * step, &search);
+        if (!(here < least)) continue;
+        least = here;
+        best = k;
+    }
+    if (best == 0 || best == places - 1) return false;
+    *at = from + (double)best * step;
+    // Brent's method wants the middle below both ends: a neighbour may be as low.
+    if (least < misfit_at(*at - step, &search) && least < misfit_at(*at + step, &search))
+        *at = refine(&f, *at - step, *at, *at + step);
+    return true;
 }
 
 typedef struct Fit {

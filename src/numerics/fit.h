@@ -4,10 +4,23 @@
 
 #include "base/status.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
-// Slope of the straight line through (x, y) with weights w.
-double fit_slope(const double *x, const double *y, const double *weights, size_t count);
+typedef struct Line {
+    double intercept, slope;
+    double misfit; // sum of the squares of what is left of y, times the weights
+} Line;
+
+// The straight line through (x, y) with these weights; NULL: all weigh 1.
+Line fit_line(const double *x, const double *y, const double *weights, size_t count);
+
+typedef double FitMisfit(double at, const void *of);
+
+// Where the misfit is least, first of `places` evenly from one end to the other, then by Brent's
+// method. False if it is least at an end.
+bool fit_least(FitMisfit *misfit, const void *of, double from, double to, size_t places,
+               double *at);
 
 // `y` are averages over equal bins, side by side. The value, at the near edge of the first, of the
 // polynomial of this degree whose averages come closest. BAD_DATA with too few bins.

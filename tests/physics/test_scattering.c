@@ -145,7 +145,7 @@ END_TEST
 static double first_slope(const ResultSeries *series, const ResultSeries *whole, size_t replica,
                           size_t begin, double q) {
     const ResultAxis *time = &series->axis[series->axes - 1];
-    double x[200], y[200], weights[200], mean_x = 0, mean_y = 0;
+    double x[200], y[200];
     size_t count = 0;
     for (size_t k = 0; k < time->count; k++) {
         if (!(time->values[k] > 0)) continue;
@@ -153,11 +153,9 @@ static double first_slope(const ResultSeries *series, const ResultSeries *whole,
         const double lost = (whole ? whole->values[at] : 1) - series->values[at];
         x[count] = sqrt(time->values[k]);
         y[count] = lost / (q * q * time->values[k]);
-        mean_x += x[count];
-        mean_y += y[count];
-        weights[count++] = 1;
+        count++;
     }
-    return (mean_y - fit_slope(x, y, weights, count) * mean_x) / (double)count;
+    return fit_line(x, y, NULL, count).intercept;
 }
 
 // Self: D0; collective, not normalised: D0 as well, that is D0/S(q) normalised.

@@ -25,18 +25,15 @@ static double compressibility(int dimension, double eta) {
 // The intercept of S against q^2, for q below `last`: S is even in q.
 static double intercept(const ResultSeries *s, size_t replica, double last) {
     const double *values = s->values + replica * s->size;
-    double x[100], y[100], weights[100], mean_x = 0, mean_y = 0, sum = 0;
+    double x[100], y[100], weights[100];
     size_t count = 0;
     for (size_t k = 0; k < s->axis[1].count && s->axis[1].values[k] < last; k++) {
         x[count] = s->axis[1].values[k] * s->axis[1].values[k];
         y[count] = values[k];
         weights[count] = s->axis[1].values[k]; // as the vectors in a shell
-        sum += weights[count];
-        mean_x += weights[count] * x[count];
-        mean_y += weights[count] * y[count];
         count++;
     }
-    return mean_y / sum - fit_slope(x, y, weights, count) * mean_x / sum;
+    return fit_line(x, y, weights, count).intercept;
 }
 
 // _i: dimension.

@@ -44,7 +44,7 @@ static void expect_short_time_law(const System *system, double prefactor, double
         weights[k] = 1 / t; // errors grow as eta
     }
     for (size_t r = 0; r < REPLICAS; r++) {
-        const double slope = fit_slope(grown, eta->values + r * eta->size, weights, eta->size);
+        const double slope = fit_line(grown, eta->values + r * eta->size, weights, eta->size).slope;
         results_put_scalar(results, "measured", "ratio", "", "", r, slope / law);
     }
     char line[128];

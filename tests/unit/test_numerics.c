@@ -63,9 +63,39 @@ START_TEST(pade_sums_a_slow_series) {
 }
 END_TEST
 
-START_TEST(slope_of_a_straight_line_is_exact) {
+START_TEST(a_straight_line_is_exact) {
     static const double x[] = {1, 2, 4, 8}, y[] = {5, 8, 14, 26}, w[] = {1, 0.25, 0.0625, 0.015625};
-    ck_assert_double_eq_tol(fit_slope(x, y, w, 4), 3, 1e-13);
+    const Line line = fit_line(x, y, w, 4);
+    ck_assert_double_eq_tol(line.slope, 3, 1e-13);
+    ck_assert_double_eq_tol(line.intercept, 2, 1e-13);
+    ck_assert_double_eq_tol(line.misfit, 0, 1e-20);
+}
+END_TEST
+
+START_TEST(what_a_straight_line_leaves_is_known) {
+    static const double x[] = {0, 1, 2}, y[] = {0, 3, 0}, w[] = {1, 2, 1};
+    ck_assert_double_eq_tol(fit_line(x, y, NULL, 3).intercept, 1, 1e-14);
+    ck_assert_double_eq_tol(fit_line(x, y, NULL, 3).misfit, 6, 1e-13);
+    ck_assert_double_eq_tol(fit_line(x, y, w, 3).intercept, 1.5, 1e-14);
+    ck_assert_double_eq_tol(fit_line(x, y, w, 3).misfit, 9, 1e-13);
+}
+END_TEST
+
+static double two_valleys(double at, const void *depth) {
+    if (at > 3.9) return (double)NAN;
+    return at < 1 ? fabs(at - 0.5) : pow(at - 2.7, 2) - *(const double *)depth;
+}
+
+START_TEST(the_deepest_valley_is_found) {
+    const double shallow = -1, deep = 1;
+    double at = 0;
+    ck_assert(fit_least(two_valleys, &deep, 0, 4, 50, &at));
+    ck_assert_double_eq_tol(at, 2.7, 1e-7);
+    ck_assert(fit_least(two_valleys, &shallow, 0, 4, 50, &at));
+    ck_assert_double_eq_tol(at, 0.5, 1e-7);
+    ck_assert(!fit_least(two_valleys, &deep, 1, 2.5, 50, &at));     // falls to the end
+    ck_assert(fit_least(two_valleys, &deep, 2.2, 3.2, 2 * 3, &at)); // two places are as low
+    ck_assert_double_eq_tol(at, 2.7, 0.11);
 }
 END_TEST
 
@@ -143,7 +173,9 @@ int main(void) {
     tcase_add_test(c, quarter_turns_are_exact);
     tcase_add_test(c, pade_of_a_rational_function_is_itself);
     tcase_add_test(c, pade_sums_a_slow_series);
-    tcase_add_test(c, slope_of_a_straight_line_is_exact);
+    tcase_add_test(c, a_straight_line_is_exact);
+    tcase_add_test(c, what_a_straight_line_leaves_is_known);
+    tcase_add_test(c, the_deepest_valley_is_found);
     tcase_add_test(c, edge_of_a_cubic_is_found_from_its_averages);
     tcase_add_test(c, eigenvectors_of_symmetric_matrices_are_found);
     tcase_add_test(c, eigenvalues_known_beforehand_are_found);
