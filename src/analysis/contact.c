@@ -107,7 +107,8 @@ Status derive_compression(Results *results, const ResultSeries *series, const Sy
     return OK;
 }
 
-// The stress tensor at contact by its elements; what the series does not have is 0.
+// The stress tensor at contact by its elements; what the series does not have is 0, of the shear
+// stress NaN: over an oscillation it has no mean.
 typedef struct Tensor {
     double xx, yy, zz, xy;
 } Tensor;
@@ -123,10 +124,11 @@ static Status put_tensor(Results *results, const ResultSeries *series, const Sys
                          Tensor stress, size_t replica) {
     const char *stage = series->stage, *unit = series->unit;
     const double dimension = (double)system->dimension;
-    TRY(results_put_scalar(
-        results, stage, "shear_stress_contact", unit,
-        "sigma_xy from the directions in which pairs touch: no collision enters.", replica,
-        stress.xy));
+    if (!isnan(stress.xy))
+        TRY(results_put_scalar(
+            results, stage, "shear_stress_contact", unit,
+            "sigma_xy from the directions in which pairs touch: no collision enters.", replica,
+            stress.xy));
     TRY(results_put_scalar(results, stage, "normal_stress_difference_contact", unit,
                            "sigma_xx - sigma_yy from the directions in which pairs touch.", replica,
                            stress.xx - stress.yy));
@@ -142,7 +144,7 @@ Status derive_contact_stress(Results *results, const ResultSeries *series, const
     if (bins < BINS_LEAST) return OK;
     const size_t end = window(results, series, (Rows){0, 2}, bins); // xx and yy
     for (size_t replica = 0; replica < results->replicas; replica++) {
-        Tensor stress = {0};
+        Tensor stress = {.xy = NAN};
         for (size_t e = 0; e < elements; e++) {
             double *at = element_of(&stress, series->axis[0].labels[e]);
             if (!at) continue;

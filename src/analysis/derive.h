@@ -5,6 +5,8 @@
 #include "results/results.h"
 #include "state/system.h"
 
+#include <stdbool.h>
+
 // The jackknife's pseudo-value of a replica (Efron, SIAM monograph 38, 1982), from a number found
 // with all `replicas` and without this one; of a single replica, the number itself. Of two, that of
 // the other: what the jackknife takes off as bias would be noise, of the size of the error at
@@ -13,6 +15,9 @@ static inline double pseudo_value(size_t replicas, double all, double without) {
     if (replicas < 3) return replicas < 2 ? all : without;
     return (double)replicas * all - (double)(replicas - 1) * without;
 }
+
+// Whether a stage flows unsteadily, as its correlators tell: then nothing in it is stationary.
+bool derive_unsteady(const Results *results, const char *stage);
 
 Status derive_diffusion(Results *results, const ResultSeries *displacement);
 Status derive_directional_diffusion(Results *results, const ResultSeries *displacement);

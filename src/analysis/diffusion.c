@@ -144,6 +144,11 @@ static bool across_flow(const char *direction) {
     return strcmp(direction, "y") == 0 || strcmp(direction, "z") == 0;
 }
 
+bool derive_unsteady(const Results *results, const char *stage) {
+    return results_find_scalar(results, stage, "largest_shear_rate") != NULL;
+}
+
 Status derive_diffusion_across_flow(Results *results, const ResultSeries *series) {
+    if (derive_unsteady(results, series->stage)) return OK;
     return derive_directions(results, series, across_flow);
 }

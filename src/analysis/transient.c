@@ -245,6 +245,7 @@ static const ResultSeries *quiescent_of(const Results *results, const ResultSeri
         if (strcmp(rest->observable, sheared->observable) != 0) continue;
         if (rest->axes + 1 != sheared->axes) continue;
         if (results_find_scalar(results, rest->stage, "shear_rate")) continue;
+        if (derive_unsteady(results, rest->stage)) continue;
         bool same = true;
         for (size_t a = 0; a + 1 < rest->axes; a++)
             same = same && rest->axis[a].count == sheared->axis[a].count;

@@ -56,7 +56,7 @@ static const Option rows[] = {
      .about = "Configurations looked at, evenly over the stage: at most this many."},
 };
 
-enum { ELEMENTS = 6 };
+enum { ELEMENTS = 6, XY = 2 };
 static const struct {
     const char *name;
     int row, column;
@@ -213,15 +213,20 @@ static void archive(Observer *observer, Archive *archive) {
 static Status put_stress(const ContactStress *self, const State *state, double *values,
                          double *centres, Results *results, size_t replica) {
     const char *names[ELEMENTS];
-    for (size_t e = 0; e < self->elements; e++) names[e] = element[e].name;
     const double factor = -1 / (box_volume(&state->box) * (double)self->looks * self->spacing);
-    for (size_t k = 0; k < self->elements * self->bins; k++) values[k] = factor * self->sums[k];
+    size_t count = 0;
+    for (size_t e = 0; e < self->elements; e++) {
+        if (e == XY && drive_oscillates(self->observer.clock.drive)) continue; // has no mean
+        double *row = values + count * self->bins;
+        names[count++] = element[e].name;
+        for (size_t k = 0; k < self->bins; k++) row[k] = factor * self->sums[e * self->bins + k];
+    }
     for (size_t k = 0; k < self->bins; k++) centres[k] = 1 + ((double)k + 0.5) * self->spacing;
     ResultSeries shape = {
         .about = "Stress that pairs at this distance over contact distance would carry if they "
                  "touched; extrapolated to 1 it is the stress.",
         .axes = 2,
-        .axis = {{.name = "element", .unit = "", .count = self->elements, .labels = names},
+        .axis = {{.name = "element", .unit = "", .count = count, .labels = names},
                  {.name = "scaled_distance", .unit = "", .count = self->bins, .values = centres}}};
     strcpy(shape.unit, state->box.dimension == 2 ? "kT/d^2" : "kT/d^3");
     return observer_put_series(&self->observer, "contact_stress", &shape, results, replica, values);

@@ -11,5 +11,6 @@ Status observer_put_series(const Observer *observer, const char *name, const Res
 Status observer_put_scalar(const Observer *observer, const char *quantity, const char *unit,
                            const char *about, Results *results, size_t replica, double value);
 
-// The steady shear rate of the stage, where there is one: what correlators under shear scale with.
+// The shear rate of the stage, where it flows: what correlators under shear scale with. Analysis
+// knows a flow that is not steady by the name, largest_shear_rate.
 Status observer_put_shear_rate(const Observer *observer, Results *results, size_t replica);

@@ -187,7 +187,9 @@ static Status put_scalars(const Stress *self, const State *state, Results *resul
                           size_t replica) {
     const Observer *observer = &self->observer;
     const int dimension = state->box.dimension;
-    for (size_t s = 0; s < stress_count(dimension); s++) {
+    // Over an oscillation the shear stress has no mean: `oscillatory_stress` has its harmonics.
+    const size_t first = drive_oscillates(observer->clock.drive) ? 1 : 0;
+    for (size_t s = first; s < stress_count(dimension); s++) {
         TRY(observer_put_scalar(observer, stress_names[s], stress_unit(dimension), stress_abouts[s],
                                 results, replica, stage_mean(self, s)));
     }

@@ -115,6 +115,10 @@ static bool has_table(const Flow *flow) {
     return flow->table.times.count > 0 || flow->table.rates.count > 0;
 }
 
+bool drive_oscillates(const Drive *drive) {
+    return drive && oscillates(&drive->flow);
+}
+
 unsigned drive_kinds(const Drive *drive) {
     const Flow *flow = &drive->flow;
     const bool flows = flow->rate != 0 || oscillates(flow) || has_table(flow);

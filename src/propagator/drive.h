@@ -7,6 +7,8 @@
 #include "base/option.h"
 #include "base/status.h"
 
+#include <stdbool.h>
+
 // Shear: the flow v_x = rate(t) y. Rates are in D0/d^2, so that a rate is the bare Peclet number of
 // the first species. At most one of the three is given.
 typedef struct Flow {
@@ -47,7 +49,8 @@ typedef enum DriveKind {
 
 extern const OptionTable drive_options; // keys of a stage, of a Drive
 
-unsigned drive_kinds(const Drive *drive); // those there are, of DriveKind; 0: the stage is at rest
+unsigned drive_kinds(const Drive *drive);  // those there are, of DriveKind; 0: the stage is at rest
+bool drive_oscillates(const Drive *drive); // NULL does not
 
 // BAD_DATA with a sentence that begins with the key, if the drive is not whole.
 Status drive_check(const Drive *drive);

@@ -243,6 +243,38 @@ START_TEST(harmonics_of_an_oscillation_are_found) {
 }
 END_TEST
 
+// By both routes: what is odd in the strain averages out, pressures and normal stresses do not.
+START_TEST(over_an_oscillation_the_shear_stress_has_no_mean) {
+    static const Drive oscillating = {.flow = {.oscillation = {0.1, 0.3}}};
+    static const struct {
+        const ObservableKind *kind;
+        const char *none, *some;
+    } routes[] = {
+        {&observable_stress, "shear_stress", "normal_stress_difference"},
+        {&observable_contact_stress, "shear_stress_contact", "normal_stress_difference_contact"}};
+    System system = system_of(2, 400, 0.3, 1);
+    State *state = new_state(&system);
+    scatter(state, KEY, 0);
+    Clock clock = flying_clock(1000);
+    for (size_t k = 0; k < 2; k++) {
+        for (int oscillates = 0; oscillates < 2; oscillates++) {
+            clock.drive = oscillates ? &oscillating : NULL;
+            const Settings settings = settings_of(&routes[k].kind->options);
+            Observer *observer = new_observer(routes[k].kind, &settings, state, &clock);
+            tell(observer, state, oscillation);
+            Results *results = written(observer, state);
+            ck_assert_int_eq(analysis_derive(results, &system), OK);
+            const void *mean = results_find_scalar(results, "quiescent", routes[k].none);
+            ck_assert_int_eq(mean == NULL, oscillates);
+            ck_assert_ptr_nonnull(results_find_scalar(results, "quiescent", routes[k].some));
+            results_free(results);
+            observer->kind->free(observer);
+        }
+    }
+    state_free(state);
+}
+END_TEST
+
 static Suite *suite(void) {
     Suite *s = suite_create("stress");
     TCase *c = tcase_create("stress");
@@ -252,6 +284,7 @@ static Suite *suite(void) {
     tcase_add_loop_test(c, pairs_press_along_the_line_between_them, 0, 8);
     tcase_add_test(c, start_up_shows_its_overshoot);
     tcase_add_test(c, harmonics_of_an_oscillation_are_found);
+    tcase_add_test(c, over_an_oscillation_the_shear_stress_has_no_mean);
     suite_add_tcase(s, c);
     return s;
 }

@@ -39,8 +39,9 @@ static double waited(double t, double strain, bool displacements) {
                          : at_rest(t) * (ratio(t) + s * ratio_slope(t));
 }
 
-// A stage at rest and a sheared one with waiting strains, every replica alike but for a factor.
-static Results *relaxed(const char *observable, bool displacements) {
+// A stage at rest (or one that only seems so) and a sheared one with waiting strains, every replica
+// alike but for a factor.
+static Results *relaxed(const char *observable, bool displacements, bool unsteady) {
     static const char *const directions[] = {"y"}, *const species[] = {"small"};
     double times[LAGS], values[WAITS][LAGS];
     for (int k = 0; k < LAGS; k++) times[k] = 1e-3 * pow(10, 0.05 * k);
@@ -71,6 +72,7 @@ static Results *relaxed(const char *observable, bool displacements) {
         }
         ck_assert_int_eq(results_put_series(results, &sheared, r, &values[0][0]), OK);
         results_put_scalar(results, "shear", "shear_rate", "", "", r, RATE);
+        if (unsteady) results_put_scalar(results, "rest", "largest_shear_rate", "", "", r, RATE);
     }
     const System system = system_of(2, 100, 0.5, 1);
     ck_assert_int_eq(analysis_derive(results, &system), OK);
@@ -82,7 +84,7 @@ static double element(const Results *results, const char *name, size_t at) {
 }
 
 START_TEST(the_transient_follows_from_what_has_waited) {
-    Results *results = relaxed("self_scattering", false);
+    Results *results = relaxed("self_scattering", false, false);
     ck_assert_double_eq(element(results, "self_scattering_relation_strain", 0), 0);
     for (size_t w = 1; w < WAITS; w++) {
         ck_assert_double_eq_tol(element(results, "self_scattering_relation_strain", w),
@@ -104,7 +106,7 @@ START_TEST(the_transient_follows_from_what_has_waited) {
 END_TEST
 
 START_TEST(so_do_displacements) {
-    Results *results = relaxed("non_affine_displacement", true);
+    Results *results = relaxed("non_affine_displacement", true, false);
     for (size_t w = 1; w < WAITS; w++) {
         ck_assert_double_eq_tol(element(results, "non_affine_displacement_relation_strain", w),
                                 BEST_STRAIN[w], 0.02 * BEST_STRAIN[w]);
@@ -165,6 +167,36 @@ START_TEST(diffusion_across_the_flow_is_a_slope) {
 }
 END_TEST
 
+// Of a stage whose flow is not steady, as correlators say themselves.
+START_TEST(an_unsteady_flow_has_no_long_time_diffusion) {
+    static const Drive oscillating = {.flow = {.oscillation = {0.1, 0.05}}};
+    System system = system_of(2, 50, 0.3, 1);
+    State *state = new_state(&system);
+    Clock clock = clock_of(1000, 1);
+    const Settings settings = settings_of(&observable_non_affine_displacement.options);
+    for (int oscillates = 0; oscillates < 2; oscillates++) {
+        clock.drive = oscillates ? &oscillating : NULL;
+        Observer *observer =
+            new_observer(&observable_non_affine_displacement, &settings, state, &clock);
+        Results *results = written(observer, state);
+        ck_assert_int_eq(analysis_derive(results, &system), OK);
+        const void *found = results_find_scalar(results, "quiescent", "long_time_diffusion_y");
+        ck_assert_int_eq(found == NULL, oscillates);
+        results_free(results);
+        observer->kind->free(observer);
+    }
+    state_free(state);
+}
+END_TEST
+
+// Nor does it stand in for the stage at rest.
+START_TEST(an_unsteady_flow_is_not_taken_for_rest) {
+    Results *results = relaxed("self_scattering", false, true);
+    ck_assert_ptr_null(results_find_series(results, "shear", "self_scattering_relation"));
+    results_free(results);
+}
+END_TEST
+
 // As strain melts a glass: faster than exponentially.
 static double compressed(double t) {
     return 0.2 * exp(-t / 0.01) + 0.8 * exp(-pow(t / 20, 1.5));
@@ -186,6 +218,8 @@ int main(void) {
     tcase_add_test(tests, so_do_displacements);
     tcase_add_test(tests, a_power_law_has_its_exponent);
     tcase_add_test(tests, diffusion_across_the_flow_is_a_slope);
+    tcase_add_test(tests, an_unsteady_flow_has_no_long_time_diffusion);
+    tcase_add_test(tests, an_unsteady_flow_is_not_taken_for_rest);
     tcase_add_test(tests, a_compressed_exponential_is_found);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
