@@ -104,7 +104,7 @@ static Status allocate(Balls *balls) {
     TRY(NEW_ARRAY(balls->coarse, 2 * count));
     TRY(NEW_ARRAY(balls->found, count + NEIGHBOURS_AT_A_TIME));
     TRY(NEW_ARRAY(balls->entered, count + NEIGHBOURS_AT_A_TIME));
-    TRY(NEW_ARRAY(balls->radius_single, count));
+    TRY(NEW_ARRAY(balls->radius_single, 2 * count));
     if (!balls->settings.gaussian) return OK;
     TRY(NEW_ARRAY(balls->ids, TRIALS_PER_BLOCK));
     for (uint32_t t = 0; t < TRIALS_PER_BLOCK; t++) balls->ids[t] = t;
@@ -132,39 +132,37 @@ static bool edges_are_equal(const State *state) {
 }
 
 // How far coarse distances may be off, in coarse steps: a place is off by half a step, so each
-// coordinate of a difference by one; where edges or diameters differ by 1.75, as the products by
-// coarse_scale are rounded, and the sum of two radii by 1.25.
-static const double ALIKE_OFF = 1.7320509, SCALED_OFF = 3.0310890, RADII_OFF = 1.25;
+// coordinate of a difference by one; scaled ones by 1.75, as the products by coarse_scale are
+// rounded, and the sum of two radii by 1.25.
+static const double UNSCALED_OFF = 1.7320509, SCALED_OFF = 3.0310890, RADII_OFF = 1.25;
 static const double RADIUS_SCALE = 24576.0 / 32768;
 
-// By how much an energy may be off, relative to it: exp(x) - 1 < x (1 + x), with n times what ln r
-// is off, down to where energies are flat, n/2 times the 2^-12 of the inverse of r^2, and single
-// precision.
-static void set_energy_doubt(Balls *balls, double contact) {
-    const double flat = contact * exp2(-7.0 / balls->exponent) - 2 * ALIKE_OFF;
-    const double doubt = balls->exponent * (ALIKE_OFF / flat + 0x1p-13 + 1e-6) + 1e-5;
+// The error of n ln r, down to where energies are flat, and that of single precision.
+static void set_energy_off(Balls *balls, double per_d) {
+    const double off = balls->unscaled ? UNSCALED_OFF : SCALED_OFF;
+    const double flat = balls->smallest * per_d * exp2(-7.0 / balls->exponent) - 2 * off;
     balls->faint = (float)exp2(-36.0 / balls->exponent);
-    balls->coarse_contact2 = (float)(contact * contact);
-    balls->energy_doubt = flat > 0 && doubt < 1 ? (float)(doubt * (1 + doubt)) : INFINITY;
+    balls->coarse_steps2 = (float)(per_d * per_d);
+    balls->energy_off = flat > 0 ? balls->exponent * (off / flat + 1e-6) + 1e-5 : INFINITY;
 }
 
 static void set_coarse_bounds(Balls *balls) {
     const double *edge = balls->state->box.edge;
     const double longest = box_longest_edge(&balls->state->box);
-    const double per_edge = balls->alike ? 0x1p16 : COARSE_PER_EDGE;
-    const double contact = balls->largest / longest * per_edge;
-    const double below = contact + ALIKE_OFF, sure = fmax(contact - ALIKE_OFF, 0);
+    const double per_d = (balls->unscaled ? 0x1p16 : COARSE_PER_EDGE) / longest;
+    const double contact = balls->largest * per_d;
+    const double below = contact + UNSCALED_OFF, sure = fmax(contact - UNSCALED_OFF, 0);
     balls->below = (uint32_t)(below * below) + 2;
     balls->sure = (uint32_t)(sure * sure);
-    if (balls->soft) set_energy_doubt(balls, contact);
+    if (balls->soft) set_energy_off(balls, per_d);
     const double off = SCALED_OFF + RADII_OFF;
     balls->doubt = (int32_t)(2 * off * contact + off * off) + 2;
     for (int a = 0; a < balls->dimension; a++) {
         balls->coarse_scale[a] = (int16_t)rint(COARSE_PER_EDGE / 2 * edge[a] / longest);
     }
     for (size_t i = 0; i < balls->count; i++) {
-        const double radius = balls->radius[i] / longest * per_edge / RADIUS_SCALE;
-        const int32_t coarse = balls->alike || balls->soft ? 0 : (int32_t)rint(radius);
+        const double radius = balls->radius[i] * per_d / RADIUS_SCALE;
+        const int32_t coarse = balls->unscaled || balls->soft ? 0 : (int32_t)rint(radius);
         Ball *ball = &balls->ball[i];
         uint32_t place[3];
         balls_fractions(ball->place, place);
@@ -178,13 +176,15 @@ static Status set_scale(Balls *balls, double scale) {
     const State *state = balls->state;
     balls->scale = scale;
     balls->largest = 0;
-    balls->alike = edges_are_equal(state);
+    balls->smallest = INFINITY;
     for (size_t i = 0; i < balls->count; i++) {
         balls->radius[i] = state->diameter[i] / 2 * scale;
         balls->radius_single[i] = (float)balls->radius[i];
         balls->largest = fmax(balls->largest, 2 * balls->radius[i]);
-        balls->alike &= state->diameter[i] == state->diameter[0];
+        balls->smallest = fmin(balls->smallest, 2 * balls->radius[i]);
     }
+    balls->same = balls->smallest == balls->largest;
+    balls->unscaled = edges_are_equal(state) && (balls->soft || balls->same);
     set_coarse_bounds(balls);
     return balls_list(balls);
 }

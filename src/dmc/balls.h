@@ -59,7 +59,8 @@ struct Balls {
     int dimension;
     size_t count;
     bool soft;
-    bool alike;     // equal diameters and equal edges
+    bool same;      // diameters
+    bool unscaled;  // coarse distances are compared as they are: equal edges, and diameters if hard
     int exponent;   // of soft spheres
     double scale;   // of the diameters
     double unit[4]; // length of a lattice step, in d; 0
@@ -68,20 +69,21 @@ struct Balls {
     double normal[SPECIES_MOST][3]; // its standard deviation, in lattice steps
     double longest_of[SPECIES_MOST], longest; // half-widths of the species, and the largest, in d
 
-    Ball *ball;           // [count]
-    double *radius;       // [count], in d
-    double largest;       // diameter at this scale
+    Ball *ball;               // [count]
+    double *radius;           // [count], in d
+    double smallest, largest; // diameters at this scale
     uint64_t *coarse;     // [count] upper halves of the places, and minus the radius, 16 bits each;
                           // [count] those of the anchors, and plus the radius
-    uint32_t below, sure; // `alike`: square of a coarse distance from which on nothing overlaps;
+    uint32_t below, sure; // unscaled: square of a coarse distance from which on nothing overlaps;
                           // below which all does
     int32_t doubt;        // else: bound of the error of (distance^2 - contact^2)
     float faint;          // soft ones: (contact/distance)^2 of energies that round to nothing
-    float coarse_contact2, energy_doubt; // soft ones, `alike`: square of the coarse contact; bound
-                                         // of the relative error of energies from coarse distances
-    uint32_t leashed; // square of a coarse distance from the anchor that lists surely cover
+    float coarse_steps2;  // soft ones: (coarse steps per d)^2
+    double energy_off; // bound of the error of (contact/distance)^n relative to it, where that is
+                       // from coarse distances and not flat; but for that of the inverse
+    uint32_t leashed;  // square of a coarse distance from the anchor that lists surely cover
     int16_t coarse_scale[3];
-    float *radius_single; // [count] of soft ones
+    float *radius_single; // [count] of soft ones; [count] of their anchors, 0
 
     bool listed;    // lists and cells are those of this skin and scale
     bool separate;  // seen to be without overlaps at this scale

@@ -324,14 +324,14 @@ typedef struct Walk {
     Glass glass;
 } Walk;
 
-KERNEL Walk walk_of(const bool alike, Balls *balls) {
+KERNEL Walk walk_of(const bool unscaled, Balls *balls) {
     return (Walk){balls,
                   balls->ball,
                   balls->coarse,
                   balls->list,
                   balls->room,
                   _mm256_loadu_pd(balls->unit),
-                  glass_of(alike, balls)};
+                  glass_of(unscaled, balls)};
 }
 
 KERNEL const uint32_t *list_at(const Walk *walk, size_t t) {
@@ -352,11 +352,11 @@ KERNEL __m256i place_after(const Walk *walk, size_t t) {
 }
 
 // The radius, above the place, stays.
-KERNEL uint64_t move_ball(const bool alike, const Walk *walk, uint32_t i, __m256i place,
+KERNEL uint64_t move_ball(const bool has_radius, const Walk *walk, uint32_t i, __m256i place,
                           __m128i row) {
     const uint64_t radius = 0xffffull << 48, moved = (uint64_t)_mm_cvtsi128_si64(row);
     _mm256_store_si256((__m256i *)walk->ball[i].place, place);
-    return walk->coarse[i] = alike ? moved : (moved & ~radius) | (walk->coarse[i] & radius);
+    return walk->coarse[i] = has_radius ? (moved & ~radius) | (walk->coarse[i] & radius) : moved;
 }
 
 KERNEL void count_accepted(MoveTally *moves, __m128d squares) {
@@ -365,10 +365,10 @@ KERNEL void count_accepted(MoveTally *moves, __m128d squares) {
 }
 
 // The rows of a list are looked up before the trial before is judged, and put right if that moves.
-KERNEL bool run_trials(const bool soft, const bool alike, Balls *balls, size_t from, size_t to,
-                       MoveTally *tallies) {
+KERNEL bool run_trials(const bool soft, const bool unscaled, const bool same, Balls *balls,
+                       size_t from, size_t to, MoveTally *tallies) {
     const uint32_t first = soft ? SOFT_ENTRIES : HARD_ENTRIES;
-    Walk walk = walk_of(alike, balls);
+    Walk walk = walk_of(unscaled, balls);
     Seen seen = seen_in(&walk.glass, list_at(&walk, from), first);
     for (size_t t = from; t < to; t++) {
         const uint32_t i = balls->who[t], *list = list_at(&walk, t);
@@ -377,9 +377,10 @@ KERNEL bool run_trials(const bool soft, const bool alike, Balls *balls, size_t f
         const __m256i place = place_after(&walk, t);
         const __m128i to_row = coarse_of(place);
         const Verdict verdict =
-            soft ? look_at_energies(&walk.glass, walk.coarse[i], to_row, &seen, list,
+            soft ? look_at_energies(unscaled, same, &walk.glass, i, to_row, &seen, list,
                                     walk.ball[i].entries, balls->affordable[t])
-                 : look_for_overlaps(alike, &walk.glass, to_row, &seen, list, walk.ball[i].entries);
+                 : look_for_overlaps(unscaled, &walk.glass, to_row, &seen, list,
+                                     walk.ball[i].entries);
         if (__builtin_expect(!(verdict.accepted | verdict.rejected), 0)) {
             if (!try_exactly(balls, t, tallies)) return false;
             walk.lists = balls->list;
@@ -392,17 +393,21 @@ KERNEL bool run_trials(const bool soft, const bool alike, Balls *balls, size_t f
         moves->trials++;
         if (verdict.rejected) continue;
         count_accepted(moves, squares_of(balls->move[t], walk.unit));
-        const uint64_t row = move_ball(alike, &walk, i, place, to_row);
+        const uint64_t row = move_ball(!soft && !unscaled, &walk, i, place, to_row);
         seen = seen_after(seen, list_at(&walk, t + 1), first, i, row);
     }
     return true;
 }
 
 KERNEL bool run_block(Balls *balls, size_t from, size_t to, MoveTally *tallies) {
+    const bool soft = balls->soft, unscaled = balls->unscaled, same = balls->same;
+    if (soft && unscaled && same) return run_trials(true, true, true, balls, from, to, tallies);
+    if (soft && unscaled) return run_trials(true, true, false, balls, from, to, tallies);
+    if (soft && same) return run_trials(true, false, true, balls, from, to, tallies);
+    if (soft) return run_trials(true, false, false, balls, from, to, tallies);
     const bool alone = balls->count == 1; // nobody else fills its list
-    if (balls->soft && balls->alike) return run_trials(true, true, balls, from, to, tallies);
-    if (balls->alike && !alone) return run_trials(false, true, balls, from, to, tallies);
-    if (!balls->soft && !alone) return run_trials(false, false, balls, from, to, tallies);
+    if (unscaled && !alone) return run_trials(false, true, true, balls, from, to, tallies);
+    if (!alone) return run_trials(false, false, false, balls, from, to, tallies);
     for (size_t t = from; t < to; t++) {
         if (!try_exactly(balls, t, tallies)) return false;
     }

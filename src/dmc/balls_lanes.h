@@ -92,16 +92,27 @@ KERNEL Real roots(Real a) {
     return _mm512_sqrt_ps(a);
 }
 
-// Off by less than 2^-12 of it.
+static const float INVERSE_OFF = 0x1p-14f; // error relative to it
+
 KERNEL Real inverse(Real a) {
     return _mm512_rcp14_ps(a);
+}
+
+// Lane by lane, which entry of as many.
+KERNEL Whole lane_order(void) {
+    return _mm512_setr_epi32(0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15);
+}
+
+// What a table has of each.
+KERNEL Real reals_of(const float *table, const uint32_t *ids) {
+    const Whole in_order = _mm512_permutexvar_epi32(lane_order(), _mm512_loadu_si512(ids));
+    return _mm512_i32gather_ps(in_order, table, 4);
 }
 
 // Adds the lanes of entries n, n + 1, ..., but of neighbours only: not of the first, and before
 // `entries`.
 KERNEL Real plus_neighbours(Real sum, Real a, uint32_t n, uint32_t entries) {
-    const Whole order = _mm512_setr_epi32(0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15);
-    const Whole behind = _mm512_add_epi32(order, all((int32_t)n - 1));
+    const Whole behind = _mm512_add_epi32(lane_order(), all((int32_t)n - 1));
     return _mm512_mask_add_ps(sum, _mm512_cmplt_epu32_mask(behind, all((int32_t)entries - 1)), sum,
                               a);
 }
@@ -204,13 +215,23 @@ KERNEL Real roots(Real a) {
     return _mm256_sqrt_ps(a);
 }
 
+static const float INVERSE_OFF = 0x1.8p-12f;
+
 KERNEL Real inverse(Real a) {
     return _mm256_rcp_ps(a);
 }
 
+KERNEL Whole lane_order(void) {
+    return _mm256_setr_epi32(0, 1, 4, 5, 2, 3, 6, 7);
+}
+
+KERNEL Real reals_of(const float *table, const uint32_t *ids) {
+    const Whole eight = _mm256_load_si256((const __m256i *)ids);
+    return _mm256_i32gather_ps(table, _mm256_permutevar8x32_epi32(eight, lane_order()), 4);
+}
+
 KERNEL Real plus_neighbours(Real sum, Real a, uint32_t n, uint32_t entries) {
-    const Whole order = _mm256_setr_epi32(0, 1, 4, 5, 2, 3, 6, 7);
-    const Whole entry = _mm256_add_epi32(order, all((int32_t)n));
+    const Whole entry = _mm256_add_epi32(lane_order(), all((int32_t)n));
     const Whole real = _mm256_and_si256(_mm256_cmpgt_epi32(entry, all(0)),
                                         _mm256_cmpgt_epi32(all((int32_t)entries), entry));
     return _mm256_add_ps(sum, _mm256_and_ps((Real)real, a));

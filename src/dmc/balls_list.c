@@ -37,7 +37,7 @@ static void choose_skin(Balls *balls) {
 // Coarse distances in the scaled steps of balls.c are off by less than four.
 static void choose_far(Balls *balls) {
     const double longest = box_longest_edge(&balls->state->box);
-    const double per_edge = balls->alike ? 0x1p16 : COARSE_PER_EDGE;
+    const double per_edge = balls->unscaled ? 0x1p16 : COARSE_PER_EDGE;
     const double range =
         (balls->largest * balls->reach + balls->skin) / longest * COARSE_PER_EDGE + 4;
     const double leash = fmax(sqrt(balls->leash2) / longest * per_edge - 4, 0);
@@ -160,7 +160,7 @@ static int cells_round(const Balls *balls, const uint32_t place[3], int64_t cell
     return count;
 }
 
-// Who is in whose list; the same from both. Balls that are all alike are by the coarse distance of
+// Who is in whose list; the same from both. Balls of the same size are by the coarse distance of
 // their anchors, which never leaves out who belongs: it alone judges eight at a time.
 static bool belong(const Balls *balls, uint32_t i, const uint32_t anchor[3], uint32_t j) {
     const double range = contact_of(balls, i, j) + balls->skin;
@@ -181,7 +181,7 @@ static size_t search(const Balls *balls, uint32_t i) {
     for (size_t n = 0; n < near; n++) {
         const uint32_t j = balls->found[n];
         balls->found[count] = j;
-        count += j != i && (balls->alike || belong(balls, i, balls->ball[i].anchor, j));
+        count += j != i && (balls->same || belong(balls, i, balls->ball[i].anchor, j));
     }
     return count;
 }
@@ -190,7 +190,7 @@ static size_t search(const Balls *balls, uint32_t i) {
 static size_t outside(const Balls *balls, uint32_t i, const uint32_t anchor[3], const uint32_t *ids,
                       size_t count, uint32_t *others) {
     size_t number = 0;
-    if (balls->alike) {
+    if (balls->same) {
         return balls->kernel->beyond(balls, balls_coarse(anchor), ids, count, others);
     }
     for (size_t n = 0; n < count; n++) {

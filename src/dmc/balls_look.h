@@ -7,6 +7,8 @@
 
 #include "dmc/balls_lanes.h"
 
+#include <math.h>
+
 // If neither, the trial is open.
 typedef struct Verdict {
     bool accepted, rejected;
@@ -17,19 +19,27 @@ typedef struct Verdict {
 // What all trials are looked at with.
 typedef struct Glass {
     const uint64_t *coarse;
-    Whole plus, minus;           // scales of rows, unless all are alike
+    Whole plus, minus;           // scales of rows
     Whole maybe, surely;         // bounds of neighbours that may overlap, that do
     Whole leashed, never_anchor; // the same where the first is the anchor
     int exponent;
-    Real contact2, flat; // squared, in coarse steps; the energy that is not exceeded, in kT
+    const float *radius; // of particles, in d
+    float steps2;        // (coarse steps per d)^2
+    Real flat;           // the energy that is not exceeded, in kT
     float doubt;         // error of an energy relative to it
     float off;           // error of the sum of all, absolute, in kT
 } Glass;
 
-KERNEL Glass glass_of(const bool alike, const Balls *balls) {
+// exp(x) - 1 < x (1 + x)
+KERNEL float energy_doubt(const Balls *balls) {
+    const double off = balls->energy_off + balls->exponent * 0.5 * (double)INVERSE_OFF;
+    return off < 1 ? (float)(off * (1 + off)) : INFINITY;
+}
+
+KERNEL Glass glass_of(const bool unscaled, const Balls *balls) {
     const uint64_t scale = balls_coarse_scales(balls);
-    const Whole maybe = all(alike ? (int32_t)balls->below : balls->doubt);
-    const Whole surely = all(alike ? (int32_t)balls->sure : -balls->doubt);
+    const Whole maybe = all(unscaled ? (int32_t)balls->below : balls->doubt);
+    const Whole surely = all(unscaled ? (int32_t)balls->sure : -balls->doubt);
     return (Glass){
         .coarse = balls->coarse,
         .plus = all_rows(scale | 24576ull << 48),
@@ -37,11 +47,12 @@ KERNEL Glass glass_of(const bool alike, const Balls *balls) {
         .maybe = maybe,
         .surely = surely,
         .leashed = first_and((int32_t)balls->leashed, maybe),
-        .never_anchor = first_and(alike ? 0 : INT32_MIN, surely),
+        .never_anchor = first_and(unscaled ? 0 : INT32_MIN, surely),
         .exponent = balls->exponent,
-        .contact2 = all_real(balls->coarse_contact2),
+        .radius = balls->radius_single,
+        .steps2 = balls->coarse_steps2,
         .flat = all_real((float)(ENERGY_MOST / ENERGY_UNITS)),
-        .doubt = balls->energy_doubt,
+        .doubt = energy_doubt(balls),
         .off = (float)(2 * balls->room / ENERGY_UNITS),
     };
 }
@@ -68,10 +79,10 @@ KERNEL Whole sums_of_products(Rows a, Rows b) {
     return sums(first_of_pairs(low, high), second_of_pairs(low, high));
 }
 
-// Squares of coarse distances; unless all are alike, of scaled ones less those of contact.
-KERNEL Whole apart(const bool alike, const Glass *glass, Whole place, Rows rows) {
+// Squares of coarse distances; of scaled ones among hard balls less those of contact.
+KERNEL Whole apart(const bool unscaled, const Glass *glass, Whole place, Rows rows) {
     const Rows r = from(place, rows);
-    if (alike) return sums_of_products(r, r);
+    if (unscaled) return sums_of_products(r, r);
     return sums_of_products(scaled(r, glass->plus), scaled(r, glass->minus));
 }
 
@@ -101,37 +112,47 @@ KERNEL Seen seen_after(Seen seen, const uint32_t *list, uint32_t entries, uint32
 }
 
 // Adds what further neighbours tell.
-KERNEL void look_on(const bool alike, const Glass *glass, Whole place, Rows rows, unsigned *near,
+KERNEL void look_on(const bool unscaled, const Glass *glass, Whole place, Rows rows, unsigned *near,
                     unsigned *overlap) {
-    const Whole next = apart(alike, glass, place, rows);
-    *near |= below(!alike, next, glass->maybe);
-    *overlap |= below(!alike, next, glass->surely);
+    const Whole next = apart(unscaled, glass, place, rows);
+    *near |= below(!unscaled, next, glass->maybe);
+    *overlap |= below(!unscaled, next, glass->surely);
 }
 
-KERNEL Verdict look_for_overlaps(const bool alike, const Glass *glass, __m128i to, const Seen *seen,
-                                 const uint32_t *list, uint32_t entries) {
+KERNEL Verdict look_for_overlaps(const bool unscaled, const Glass *glass, __m128i to,
+                                 const Seen *seen, const uint32_t *list, uint32_t entries) {
     const Whole place = all_rows_low(to);
-    const Whole first = apart(alike, glass, place, seen->rows[0]);
-    unsigned near = below(!alike, first, glass->leashed) ^ 1,
-             overlap = below(!alike, first, glass->never_anchor);
+    const Whole first = apart(unscaled, glass, place, seen->rows[0]);
+    unsigned near = below(!unscaled, first, glass->leashed) ^ 1,
+             overlap = below(!unscaled, first, glass->never_anchor);
     for (uint32_t k = 1; k < HARD_ENTRIES / LANES; k++) {
-        look_on(alike, glass, place, seen->rows[k], &near, &overlap);
+        look_on(unscaled, glass, place, seen->rows[k], &near, &overlap);
     }
     for (uint32_t n = HARD_ENTRIES; __builtin_expect(n < entries, 0); n += LANES) {
-        look_on(alike, glass, place, rows_of(glass, list + n), &near, &overlap);
+        look_on(unscaled, glass, place, rows_of(glass, list + n), &near, &overlap);
     }
     return (Verdict){near == 0, overlap != 0};
 }
 
-enum { ENDS = 4 }; // before and after, of twice as many neighbours as there are lanes
+// Squares of the coarse contacts of i with those of the list from n on.
+KERNEL Real contacts2(const bool same, const Glass *glass, uint32_t i, const uint32_t *list,
+                      uint32_t n) {
+    const Real own = all_real(glass->radius[i]);
+    const Real contact = own + (same ? own : reals_of(glass->radius, list + n));
+    return contact * contact * all_real(glass->steps2);
+}
+
+// Before and after, of twice as many neighbours as there are lanes.
+enum { ENDS = 4 };
 
 // (contact/r)^n, no more than flat, in kT, of squares of coarse distances.
-KERNEL void energies(const Glass *glass, Real of[ENDS]) {
+KERNEL void energies(const Glass *glass, const Real contact2[ENDS / 2], Real of[ENDS]) {
     Real power[ENDS];
     int n = glass->exponent / 2;
-    for (int k = 0; k < ENDS; k++) of[k] = inverse(of[k]) * glass->contact2;
+    for (int k = 0; k < ENDS; k++) of[k] = inverse(of[k]) * contact2[k / 2];
     if (glass->exponent & 1) {
         for (int k = 0; k < ENDS; k++) power[k] = roots(of[k]);
+        for (int k = 0; k < ENDS && n & 1; k++) power[k] *= of[k];
     } else {
         for (; !(n & 1); n /= 2) {
             for (int k = 0; k < ENDS; k++) of[k] *= of[k];
@@ -146,22 +167,24 @@ KERNEL void energies(const Glass *glass, Real of[ENDS]) {
     for (int k = 0; k < ENDS; k++) of[k] = least(power[k], glass->flat);
 }
 
-KERNEL Verdict look_at_energies(const Glass *glass, uint64_t from_row, __m128i to, const Seen *seen,
-                                const uint32_t *list, uint32_t entries, int32_t affordable) {
-    const Whole here = all_rows(from_row), there = all_rows_low(to);
+KERNEL Verdict look_at_energies(const bool unscaled, const bool same, const Glass *glass,
+                                uint32_t i, __m128i to, const Seen *seen, const uint32_t *list,
+                                uint32_t entries, int32_t affordable) {
+    const Whole here = all_rows(glass->coarse[i]), there = all_rows_low(to);
     Real before = all_real(0), after = all_real(0);
     bool leashed = false;
     for (uint32_t n = 0; __builtin_expect(n < entries, n == 0); n += 2 * LANES) {
-        Real of[ENDS];
+        Real of[ENDS], contact2[ENDS / 2];
         for (uint32_t k = 0; k < 2; k++) {
             const Rows rows =
                 n < SOFT_ENTRIES ? seen->rows[n / LANES + k] : rows_of(glass, list + n + k * LANES);
-            const Whole end = apart(true, glass, there, rows);
-            of[2 * k] = reals(apart(true, glass, here, rows));
+            const Whole end = apart(unscaled, glass, there, rows);
+            contact2[k] = contacts2(same, glass, i, list, n + k * LANES);
+            of[2 * k] = reals(apart(unscaled, glass, here, rows));
             of[2 * k + 1] = reals(end);
             if (n == 0 && k == 0) leashed = below(false, end, glass->leashed) & 1;
         }
-        energies(glass, of);
+        energies(glass, contact2, of);
         for (uint32_t k = 0; k < 2; k++) {
             before = plus_neighbours(before, of[2 * k], n + k * LANES, entries);
             after = plus_neighbours(after, of[2 * k + 1], n + k * LANES, entries);

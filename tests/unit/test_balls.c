@@ -44,9 +44,13 @@ static const Scene SCENES[] = {
     {"soft spheres", 3, 300, 0.45, 1, 0, 36, 1, 0.1, &UNIFORM},
     {"dilute soft spheres, large steps", 3, 60, 0.10, 1, 0, 36, 1, 0.4, &UNIFORM},
     {"softer spheres", 3, 400, 0.25, 1, 0, 13, 1, 0.1, &UNIFORM},
+    {"exponent 15", 3, 300, 0.40, 1, 0, 15, 1, 0.1, &UNIFORM},
     {"soft spheres that are nearly hard", 3, 200, 0.30, 1, 0, 501, 1, 0.05, &UNIFORM},
     {"one soft sphere", 3, 1, 0.01, 1, 0, 12, 1, 0.3, &UNIFORM},
-    {"mixture of soft spheres", 3, 300, 0.40, 1.2, 0, 24, 1.3, 0.1, &NORMAL},
+    {"mixture of soft spheres", 3, 300, 0.40, 1.2, 0, 24, 1, 0.1, &UNIFORM},
+    {"soft spheres in a long box", 3, 300, 0.45, 1, 0, 36, 2, 0.1, &UNIFORM},
+    {"mixture of soft spheres in a long box", 3, 300, 0.40, 1.2, 0, 24, 1.3, 0.1, &NORMAL},
+    {"soft spheres of many sizes", 3, 300, 0.40, 1, 0.1, 35, 1.2, 0.1, &UNIFORM},
 };
 enum { SCENES_COUNT = sizeof SCENES / sizeof *SCENES };
 
