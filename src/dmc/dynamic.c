@@ -2,6 +2,7 @@
 // Dynamic Monte Carlo: the chain with a clock. A tick is a fixed time, about a cycle, chosen from
 // the plan alone; how many trials are worth it is measured as the run goes on, from before the
 // stage begins ([JT]; mixtures: Garcia Daza et al.).
+#include "dmc/agreement.h"
 #include "dmc/clock.h"
 #include "dmc/dmc.h"
 #include "dmc/predict.h"
@@ -16,7 +17,6 @@ static const double ACCEPTANCE_FLOOR = 0.05; // below it, trials say little abou
 static const int ADJUSTMENTS = 20;           // of the amplitudes of a mixture, in the calibration
 static const int64_t ROUND = 500; // cycles between adjustments of a pulled tracer, as [GD]
 static const int ROUNDS_LEAST = 4;
-static const double CLOCKS_APART = 0.1; // at most, of two species after the calibration
 
 typedef struct Dynamic {
     double step;
@@ -381,17 +381,28 @@ static Status check_running(const DynamicPropagator *made) {
     return OK;
 }
 
-static Status check_one_clock(const DynamicPropagator *made) {
+// What a cycle is worth by each species, in blocks of so many trials together.
+static Status measure_clocks(DynamicPropagator *made, int64_t trials, Agreement *agreement) {
+    for (int64_t b = 0; b < AGREEMENT_BLOCKS; b++) {
+        const int64_t from = trials * b / AGREEMENT_BLOCKS,
+                      to = trials * (b + 1) / AGREEMENT_BLOCKS;
+        TRY(clock_run(made->clock, to - from, NULL));
+        for (size_t s = 0; s < made->state->system.species_count; s++) {
+            agreement->cycle[b][s] = clock_cycle_of(made->clock, s);
+        }
+    }
+    return OK;
+}
+
+static Status check_one_clock(const DynamicPropagator *made, const Agreement *agreement) {
     const System *system = &made->state->system;
-    const double first = clock_cycle_of(made->clock, 0);
     for (size_t s = 1; s < system->species_count; s++) {
-        const double apart = clock_cycle_of(made->clock, s) / first - 1;
-        const double sure = 4 / sqrt((double)clock_trials(made->clock, s) + 1); // statistics
-        if (fabs(apart) <= CLOCKS_APART + sure) continue;
+        if (agreement_holds(agreement, s)) continue;
         return status_fail(UNHEALTHY,
-                           "species '%s' is off the clock of '%s' by %.0f %% at step = %g; take a "
-                           "smaller step or a longer calibration",
-                           system->species[s].name, system->species[0].name, 100 * apart,
+                           "species '%s' is off the clock of '%s' by %.0f(%.0f) %% at step = %g; "
+                           "take a smaller step or a longer calibration",
+                           system->species[s].name, system->species[0].name,
+                           100 * agreement_apart(agreement, s), 100 * agreement_error(agreement, s),
                            made->set.step);
     }
     return OK;
@@ -435,12 +446,13 @@ static Status prepare(Propagator *propagator) {
         }
     }
     if (made->pulled) TRY(settle_tracer(made));
+    Agreement agreement;
     clock_restart(made->clock);
-    TRY(clock_run(made->clock, half, NULL));
+    TRY(measure_clocks(made, half, &agreement));
     clock_calibrate(made->clock, false);
     clock_publish(made->clock);
     TRY(check_running(made));
-    return check_one_clock(made);
+    return check_one_clock(made, &agreement);
 }
 
 static Status advance(Propagator *propagator, int64_t ticks, Tally *tally) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The clock of dynamic Monte Carlo: amplitudes against closed forms, time of free bodies, slices
 // and resumes to the bit, also inside a cycle that is being measured.
+#include "dmc/agreement.h"
 #include "dmc/clock.h"
 #include "dmc/dmc.h"
 #include "dmc/predict.h"
@@ -249,6 +250,63 @@ START_TEST(a_nematic_may_take_steps_that_isotropic_bodies_may_not) {
 }
 END_TEST
 
+// A particle that is crowded for 200 trials on average, and free for as many: its acceptances, in
+// blocks of so many trials, beside a clock that is known. Its own is `fast` times that.
+typedef struct Crowd {
+    double crowded, free, fast;
+    int64_t trials;
+} Crowd;
+
+static Agreement noted(const Crowd *crowd, uint64_t sample) {
+    static const double SWITCHING = 1 / 200.0;
+    Rng rng = rng_open((RngKey){.seed = 5, .replica = sample}, STREAM_TRIALS, 0, 0);
+    Agreement agreement = {0};
+    bool crowded = sample % 2;
+    double accepted = 0, trials = 0;
+    for (int b = 0; b < AGREEMENT_BLOCKS; b++) {
+        for (int64_t k = 0; k < crowd->trials; k++, trials++) {
+            if (rng_uniform(&rng) < SWITCHING) crowded = !crowded;
+            accepted += rng_uniform(&rng) < (crowded ? crowd->crowded : crowd->free);
+        }
+        agreement.cycle[b][0] = 3 * (crowd->crowded + crowd->free) / 2;
+        agreement.cycle[b][1] = 3 * crowd->fast * accepted / trials;
+    }
+    return agreement;
+}
+
+START_TEST(the_error_of_a_clock_is_that_of_trials_that_follow_each_other) {
+    enum { SAMPLES = 500 };
+    static const Crowd crowd = {.crowded = 0.5, .free = 0.9, .fast = 1, .trials = 2000};
+    double square = 0, told = 0;
+    for (uint64_t k = 0; k < SAMPLES; k++) {
+        const Agreement agreement = noted(&crowd, k);
+        const double apart = agreement_apart(&agreement, 1), error = agreement_error(&agreement, 1);
+        square += apart * apart / SAMPLES;
+        told += error * error / SAMPLES;
+    }
+    // The mean square is known to sqrt(2/500), 6 %; blocks of 20 correlation times miss 5 %.
+    ck_assert_double_eq_tol(told / square, 0.95, 4 * sqrt(2.0 / SAMPLES));
+    ck_assert_double_gt(sqrt(square), 3.5 * sqrt(0.21 / (AGREEMENT_BLOCKS * 2000.0)) / 0.7);
+}
+END_TEST
+
+START_TEST(few_encounters_are_no_disagreement_and_another_clock_is_one) {
+    enum { SAMPLES = 500 };
+    static const Crowd alike = {.crowded = 0.1, .free = 0.9, .fast = 1, .trials = 500},
+                       apart = {.crowded = 0.5, .free = 0.9, .fast = 1.4, .trials = 2000};
+    int refused = 0, passed = 0, far = 0;
+    for (uint64_t k = 0; k < SAMPLES; k++) {
+        const Agreement one = noted(&alike, k), two = noted(&apart, k);
+        refused += !agreement_holds(&one, 1);
+        passed += agreement_holds(&two, 1);
+        far += fabs(agreement_apart(&one, 1)) > 0.1 + 4 / sqrt(8000.0);
+    }
+    ck_assert_int_eq(refused, 0);
+    ck_assert_int_eq(passed, 0);
+    ck_assert_int_gt(far, SAMPLES / 10); // farther than so many independent trials would be
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("clock");
     TCase *unit = tcase_create("clock");
@@ -256,6 +314,8 @@ int main(void) {
     tcase_add_test(unit, amplitudes_of_platelets_match);
     tcase_add_test(unit, the_largest_step_is_where_rotation_is_one_half);
     tcase_add_test(unit, free_rotations_lose_what_closed_forms_say);
+    tcase_add_test(unit, the_error_of_a_clock_is_that_of_trials_that_follow_each_other);
+    tcase_add_test(unit, few_encounters_are_no_disagreement_and_another_clock_is_one);
     tcase_add_test(unit, predicted_acceptances_are_those_measured);
     tcase_add_test(unit, a_nematic_may_take_steps_that_isotropic_bodies_may_not);
     tcase_add_loop_test(unit, free_bodies_diffuse_in_time, 0, sizeof cases / sizeof *cases);
