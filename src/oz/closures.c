@@ -349,6 +349,7 @@ static Status converge(Closures *c, double packing_fraction, OzEffort *effort) {
     const double density = mixture_density(&c->mixture, packing_fraction);
     int backs = 0;
     bool any = false; // an iteration to go back to
+    effort->at = packing_fraction;
     anderson_restart(c->mixing);
     for (effort->iterations = 0; effort->iterations < ITERATIONS_MOST; effort->iterations++) {
         const Status status = map(c, density, &effort->residual);
@@ -363,11 +364,8 @@ static Status converge(Closures *c, double packing_fraction, OzEffort *effort) {
         memcpy(c->before, c->gamma, c->pairs * c->count * sizeof *c->gamma);
         anderson_mix(c->mixing, c->gamma, c->image);
     }
-    return status_fail(UNHEALTHY,
-                       "%s: at packing fraction %g, after %zu iterations, h - c still changes by "
-                       "%.3g",
-                       closure_names[c->closure], packing_fraction, effort->iterations,
-                       effort->residual);
+    return status_fail(UNHEALTHY, "%s: h - c still changes from iteration to iteration",
+                       closure_names[c->closure]);
 }
 
 // In steps of density, from the last solution or from the dilute limit.
@@ -379,7 +377,7 @@ static Status walk(Closures *c, double packing_fraction, double step, OzEffort *
         now = fabs(way) <= step ? packing_fraction : now + (way > 0 ? step : -step);
         c->solved = 0;
         TRY(converge(c, now, effort));
-        c->solved = now;
+        effort->reached = c->solved = now;
     } while (now != packing_fraction);
     return OK;
 }

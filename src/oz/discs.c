@@ -621,9 +621,7 @@ static Status iterate(Discs *discs, const Densities *densities, OzEffort *effort
         before = effort->residual;
         step(discs);
     }
-    return status_fail(UNHEALTHY,
-                       "Percus-Yevick discs: after %zu steps h + 1 is still up to %.3g in the core",
-                       effort->iterations, effort->residual);
+    return status_fail(UNHEALTHY, "Percus-Yevick discs: h + 1 does not vanish in the core");
 }
 
 // The dilute limit, where c = -1 in the core.
@@ -661,8 +659,9 @@ static Status follow(Discs *discs, const Structure *structure, double finer, OzE
         const Densities densities =
             densities_of(&discs->mixture, structure->density * next / target);
         guess(discs, next);
+        effort->at = next;
         TRY(iterate(discs, &densities, effort));
-        discs->solved = next;
+        effort->reached = discs->solved = next;
     } while (discs->solved != target);
     return OK;
 }
@@ -675,9 +674,9 @@ static Status check_fluid(const Discs *discs, const Structure *structure) {
         if (!response_at(discs, &densities, k, c, response) ||
             !small_is_positive(densities.species, response))
             return status_fail(UNHEALTHY,
-                               "Percus-Yevick discs: at packing fraction %g the solution found has "
-                               "a negative structure factor at q = %g",
-                               structure->packing_fraction, discs->q[k]);
+                               "Percus-Yevick discs: the solution found has a negative structure "
+                               "factor at q = %g",
+                               discs->q[k]);
     }
     return OK;
 }

@@ -143,6 +143,18 @@ static Status fill_direct(Oz *oz) {
     return OK;
 }
 
+// A failure, with what was reached on the way.
+static Status add_effort(Status status, const OzEffort *effort, double wanted) {
+    if (status != UNHEALTHY || effort->at == 0) return status;
+    const char *const solved = effort->reached > 0 ? "was solved up to" : "was solved nowhere from";
+    return status_fail(
+        status,
+        "%s; on the way to packing fraction %g it %s %g; at %g a residual of %.3g was "
+        "left after %zu iterations",
+        status_sentence(), wanted, solved, effort->reached, effort->at, effort->residual,
+        effort->iterations);
+}
+
 // What was measured beyond Percus-Yevick, of one pair. As c steps at contact, so does g.
 static Status add_difference(Oz *oz, size_t a, size_t b) {
     Structure *s = &oz->structure;
@@ -197,7 +209,7 @@ Status oz_solve(Oz *oz, double packing_fraction, const Structure **out) {
     s->packing_fraction = packing_fraction;
     s->density = mixture_density(&s->mixture, packing_fraction);
     oz->effort = (OzEffort){0};
-    TRY(fill_direct(oz));
+    TRY(add_effort(fill_direct(oz), &oz->effort, packing_fraction));
     if (oz->measured) TRY(add_differences(oz));
     for (size_t i = 0; i < s->count; i++) TRY(fill_factor(s, i));
     *out = s;

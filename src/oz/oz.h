@@ -47,9 +47,11 @@ void oz_free(Oz *oz);
 // not converge, or if no fluid is stable there.
 Status oz_solve(Oz *oz, double packing_fraction, const Structure **out);
 
-// What the last solution took: iterations, and the largest residual of the closure that is left.
+// What the last solution took: iterations, and the largest residual of the closure that is left. On
+// the way to it: the packing fraction that these are of, and the last that was solved, 0 if none.
 typedef struct OzEffort {
     size_t iterations;
     double residual;
+    double at, reached;
 } OzEffort;
 OzEffort oz_effort(const Oz *oz);

@@ -193,6 +193,11 @@ START_TEST(where_a_closure_has_no_solution_it_says_so) {
     ck_assert_int_eq(oz_create(&oz, CLOSURE_HYPERNETTED_CHAIN, &DISCS, &q, 1), OK);
     ck_assert_int_eq(oz_solve(oz, 0.75, &s), UNHEALTHY);
     ck_assert_ptr_nonnull(strstr(status_sentence(), "hypernetted-chain"));
+    const char *const reached =
+        strstr(status_sentence(), "to packing fraction 0.75 it was solved up to 0.7");
+    ck_assert_ptr_nonnull(reached);
+    ck_assert(oz_effort(oz).reached > 0.7 && oz_effort(oz).reached < oz_effort(oz).at);
+    ck_assert(oz_effort(oz).residual > 1e-9 && oz_effort(oz).iterations > 0);
     ck_assert_int_eq(oz_solve(oz, 0.6, &s), OK);
     ck_assert(oz_effort(oz).residual < 1e-9);
     oz_free(oz);
