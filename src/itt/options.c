@@ -18,18 +18,7 @@ static const Option rows[] = {
      .about = "Where the structure factor at rest comes from: a closure of the Ornstein-Zernike "
               "equation, or a closed form; or a simulation of equal discs, as {file: results.h5}.",
      .choices = closure_names},
-    {.name = "structure.file",
-     .type = OPTION_TEXT,
-     .offset = offsetof(IttPlan, file),
-     .unit = "",
-     .about = "A results.h5, a run directory, or a folder of such with a packing fraction each, as "
-              "a sweep makes: structure_factor was observed there, best up to 40/d in shells of "
-              "0.1. Relative paths begin where perrin is run."},
-    {.name = "structure.stage",
-     .type = OPTION_TEXT,
-     .offset = offsetof(IttPlan, stage),
-     .unit = "",
-     .about = "The stage whose structure_factor is read; empty: the only one that has it."},
+    MEASUREMENTS_OPTIONS(IttPlan, file, stage),
     {.name = "packing_fraction",
      .type = OPTION_REAL,
      .offset = offsetof(IttPlan, packing_fraction),

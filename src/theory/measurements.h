@@ -3,6 +3,7 @@
 // of all that lie in a folder, a packing fraction each.
 #pragma once
 
+#include "base/option.h"
 #include "oz/measured.h"
 
 #include <stdbool.h>
@@ -28,3 +29,18 @@ size_t measurements_replicas(const Measurements *measurements); // of the run wi
 // `omitted`.
 Status measurements_fit(Measured **out, const Measurements *measurements, size_t groups,
                         size_t omitted);
+
+// Rows of an option table, of a settings struct with such a path and stage.
+#define MEASUREMENTS_OPTIONS(Type, path_field, stage_field)                                        \
+    {.name = "structure.file",                                                                     \
+     .type = OPTION_TEXT,                                                                          \
+     .offset = offsetof(Type, path_field),                                                         \
+     .unit = "",                                                                                   \
+     .about = "A results.h5, a run directory, or a folder of such with a packing fraction each, "  \
+              "as a sweep makes: structure_factor was observed there, best up to 40/d in shells "  \
+              "of 0.1. Relative paths begin where perrin is run."},                                \
+    {                                                                                              \
+        .name = "structure.stage", .type = OPTION_TEXT, .offset = offsetof(Type, stage_field),     \
+        .unit = "",                                                                                \
+        .about = "The stage whose structure_factor is read; empty: the only one that has it.",     \
+    }

@@ -27,18 +27,7 @@ static const Option rows[] = {
      .about = "Where the structure factors come from: a closure of the Ornstein-Zernike equation, "
               "or a closed form for one species; or a simulation, as {file: results.h5}.",
      .choices = closure_names},
-    {.name = "structure.file",
-     .type = OPTION_TEXT,
-     .offset = offsetof(TheoryPlan, input.file),
-     .unit = "",
-     .about = "A results.h5, a run directory, or a folder of such with a packing fraction each, as "
-              "a sweep makes: structure_factor was observed there, best up to 40/d in shells of "
-              "0.1. Relative paths begin where perrin is run."},
-    {.name = "structure.stage",
-     .type = OPTION_TEXT,
-     .offset = offsetof(TheoryPlan, input.stage),
-     .unit = "",
-     .about = "The stage whose structure_factor is read; empty: the only one that has it."},
+    MEASUREMENTS_OPTIONS(TheoryPlan, input.file, input.stage),
     {.name = "structure.groups",
      .type = OPTION_INTEGER,
      .offset = offsetof(TheoryPlan, input.groups),
