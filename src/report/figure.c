@@ -243,10 +243,23 @@ bool figure_is_dense(const Figure *figure) {
     return figure->x->count > MARKS_MOST;
 }
 
+// Where the curves are on axes with one number, of which their titles say nothing.
+static void put_places(Text *text, const Figure *figure) {
+    Text places = {0};
+    for (size_t i = 0; i < figure->series->axes; i++) {
+        const ResultAxis *axis = &figure->series->axis[i];
+        if (axis->values && axis->count == 1) put_coordinate(&places, axis, 0);
+    }
+    if (places.length > 0) text_add(text, " At %s.", text_words(&places));
+    text_free(&places);
+}
+
 void figure_caption(Text *text, const Figure *figure) {
     const Results *results = figure->results;
     const FigureKind *kind = figure->kind;
-    notation_unit(text, kind && kind->about ? kind->about : figure->series->about);
+    const bool simulated = kind && kind->about && !figure_is_theory(figure);
+    notation_unit(text, simulated ? kind->about : figure->series->about);
+    put_places(text, figure);
     if ((figure->line || figure->level || figure->limit[0]) && kind->about_line)
         text_add(text, " %s", kind->about_line);
     if (figure_has_errors(figure) && figure->y) {

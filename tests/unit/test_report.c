@@ -476,6 +476,29 @@ START_TEST(a_series_over_a_plane_is_drawn_as_a_picture) {
 }
 END_TEST
 
+// One wave number tells no curve from another, so that the caption must say which it is; and a
+// theory has its own words, not those of a simulation's time origins.
+START_TEST(a_caption_says_where_the_only_number_of_an_axis_is) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    const double q[] = {6.6}, t[] = {0.1, 1}, values[] = {1, 0.5};
+    const ResultSeries shape = {
+        .stage = "theory",
+        .observable = "self_scattering",
+        .about = "Of a tagged particle.",
+        .axes = 2,
+        .axis = {{.name = "wave_number", .unit = "1/d", .count = 1, .values = q},
+                 {.name = "time", .unit = "d^2/D0", .count = 2, .values = t}}};
+    results_put_series(results, &shape, 0, values);
+    const Figure figure = figure_of(results, &results->series[0]);
+    Text caption = {0};
+    figure_caption(&caption, &figure);
+    ck_assert_str_eq(text_words(&caption), "Of a tagged particle. At wave number = 6.6 d⁻¹.");
+    text_free(&caption);
+    results_free(results);
+}
+END_TEST
+
 START_TEST(gnuplot_takes_quoted_words_literally) {
     Text script = {0};
     gnuplot_quoted(&script, "it's `rm`\n$x");
@@ -507,6 +530,7 @@ int main(void) {
     tcase_add_test(tests, an_observable_without_a_row_is_drawn_by_the_plain_rule);
     tcase_add_test(tests, a_limit_is_drawn_over_its_half_of_the_axis);
     tcase_add_test(tests, a_series_over_a_plane_is_drawn_as_a_picture);
+    tcase_add_test(tests, a_caption_says_where_the_only_number_of_an_axis_is);
     tcase_add_test(tests, gnuplot_takes_quoted_words_literally);
     tcase_set_timeout(tests, 60); // gnuplot on a busy machine
     Suite *suite = suite_create("report");
