@@ -200,16 +200,13 @@ static void print_itt(const IttPlan *itt) {
 
 static void print_schematic(const SchematicPlan *schematic) {
     const F12 model = schematic_model(schematic);
+    Text drive = {0};
     printf("theory    schematic model of one correlator\n");
     printf("          v1 = %.6g, v2 = %.6g; the transition is at v1 = %.6g\n", model.v1, model.v2,
            f12_critical_v1(model.v2));
-    if (schematic->shear_rate > 0)
-        printf("          shear rate %.6g D0/d^2\n", schematic->shear_rate);
-    else if (schematic_oscillates(schematic))
-        printf("          strain %.6g sin(%.6g t), %lld cycles\n", schematic->amplitude,
-               schematic->frequency, (long long)schematic->periods);
-    else if (schematic_has_table(schematic))
-        printf("          shear of a table, for %.6g d^2/D0\n", schematic->duration);
+    schematic_say_drive(&drive, schematic);
+    printf("          %s\n", text_words(&drive));
+    text_free(&drive);
     printf("memory    %.3g MiB\ntime      about ", (double)schematic_memory(schematic) / MEBIBYTE);
     print_seconds(schematic_seconds(schematic));
     printf("\n");

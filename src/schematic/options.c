@@ -316,3 +316,15 @@ double schematic_seconds(const SchematicPlan *plan) {
         seconds += (double)plan->moments * (4 * line + 1e-9 * ages(plan) * ages(plan) / 2);
     return seconds;
 }
+
+void schematic_say_drive(Text *text, const SchematicPlan *plan) {
+    if (schematic_oscillates(plan))
+        text_add(text, "strain %.6g sin(%.6g t), %lld cycles", plan->amplitude, plan->frequency,
+                 (long long)plan->periods);
+    else if (schematic_has_table(plan))
+        text_add(text, "shear of a table, for %.6g d^2/D0", plan->duration);
+    else if (plan->shear_rate > 0)
+        text_add(text, "shear rate %.6g D0/d^2", plan->shear_rate);
+    else
+        text_put(text, "at rest");
+}

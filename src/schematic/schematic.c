@@ -18,7 +18,8 @@ enum {
     BEGINNINGS = 4,     // whose correlators are kept where the shear varies
     HARMONICS = 5
 };
-static const double YIELDED = 1e-6;     // relative change of the stress in a decade of the rate
+static const double OVERSHOOT_LEAST = 1e-4; // of the stress: less is what the grid of times may do
+static const double YIELDED = 1e-6;         // relative change of the stress in a decade of the rate
 static const double LEAST_RATE = 1e-40; // where the search for a yield stress gives up, in Gamma
 
 struct Schematic {
@@ -147,7 +148,7 @@ static Status put_start_up(const Schematic *s, Results *results) {
     TRY(put_scalar(results, "shear_stress", "", "Shear stress of steady flow.", steady));
     TRY(put_scalar(results, "shear_viscosity", "d^2/D0", "Shear stress over shear rate.",
                    steady / s->plan->shear_rate));
-    if (top + 1 == STRAINS || !(s->stress[top] > steady)) return OK;
+    if (top + 1 == STRAINS || s->stress[top] < (1 + OVERSHOOT_LEAST) * steady) return OK;
     TRY(put_scalar(results, "overshoot_strain", "", "Strain where the stress is largest.",
                    s->strain[top]));
     return put_scalar(results, "overshoot_height", "", "Largest stress over that of steady flow.",

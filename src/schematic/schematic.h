@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/option.h"
+#include "base/text.h"
 #include "results/results.h"
 #include "schematic/f12.h"
 
@@ -42,6 +43,8 @@ double schematic_seconds(const SchematicPlan *plan); // rough
 F12 schematic_model(const SchematicPlan *plan);
 bool schematic_oscillates(const SchematicPlan *plan);
 bool schematic_has_table(const SchematicPlan *plan);
+// "shear rate 0.1 D0/d^2", "at rest".
+void schematic_say_drive(Text *text, const SchematicPlan *plan);
 
 typedef struct Schematic Schematic;
 Status schematic_create(Schematic **out, const SchematicPlan *plan);

@@ -128,11 +128,13 @@ static Status put_itt(Results *results, const IttPlan *itt) {
     return status;
 }
 
-// "schematic model: v1 = 0.83, v2 = 2, plateau 0.3"
+// "schematic model of one correlator: v1 = 0.83, v2 = 2, shear rate 0.1 D0/d^2"
 static Status put_schematic(Results *results, const SchematicPlan *schematic) {
     Text words = {0};
     const F12 model = schematic_model(schematic);
-    text_add(&words, "schematic model of one correlator: v1 = %.6g, v2 = %.6g", model.v1, model.v2);
+    text_add(&words, "schematic model of one correlator: v1 = %.6g, v2 = %.6g, ", model.v1,
+             model.v2);
+    schematic_say_drive(&words, schematic);
     const Status status = results_put_fact(results, "system", text_words(&words));
     text_free(&words);
     return status;

@@ -95,6 +95,18 @@ START_TEST(flow_that_begins_ends_on_the_flow_curve) {
 }
 END_TEST
 
+// The integrand of the stress is positive where nothing softens.
+START_TEST(a_stress_that_only_rises_has_no_overshoot) {
+    SchematicPlan plan = plan_of(1u << SCHEMATIC_CORRELATOR);
+    plan.shear_rate = 1e-3;
+    for (plan.last_strain = 2; plan.last_strain < 300; plan.last_strain *= 5) {
+        Results *results = run(&plan);
+        ck_assert_ptr_null(results_find_scalar(results, "schematic", "overshoot_height"));
+        results_free(results);
+    }
+}
+END_TEST
+
 START_TEST(a_cycle_has_its_moduli) {
     SchematicPlan plan = plan_of(1u << SCHEMATIC_CORRELATOR);
     plan.separation = 1e-3;
@@ -155,6 +167,7 @@ int main(void) {
     tcase_add_test(test, a_glass_at_rest_ends_at_its_plateau);
     tcase_add_test(test, a_fluid_has_no_yield_stress);
     tcase_add_test(test, flow_that_begins_ends_on_the_flow_curve);
+    tcase_add_test(test, a_stress_that_only_rises_has_no_overshoot);
     tcase_add_test(test, a_cycle_has_its_moduli);
     tcase_add_test(test, what_cannot_be_is_said);
     suite_add_tcase(suite, test);
