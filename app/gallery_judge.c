@@ -204,11 +204,19 @@ typedef struct Expectation {
     double expected, uncertainty, tolerance, precision;
 } Expectation;
 
-// What is expected may be another subject of the entry, that measures the same in another way: its
-// error is then the uncertainty.
+static Status read_factor(const Csv *csv, const char *text, const char *end, double *factor) {
+    char number[32];
+    snprintf(number, sizeof number, "%.*s", (int)(end - text), text);
+    if (number_read(number, factor)) return OK;
+    return status_fail(BAD_DATA, "%s: '%s' before ' * ' is not a number", csv->path, number);
+}
+
+// What is expected may be another subject of the entry, that measures the same in another way, or a
+// multiple of it, "10 * SUBJECT": its error is then the uncertainty.
 static Status read_expected(const Judgement *judgement, size_t row, Expectation *out) {
     const Csv *csv = judgement->expected;
-    const char *expected = csv_cell(csv, row, "expected");
+    const char *expected = csv_cell(csv, row, "expected"), *times;
+    double factor = 1;
     Measured other = {.point = ""};
     if (*expected == '>' || *expected == '<') {
         out->side = *expected++ == '>' ? 1 : -1;
@@ -216,9 +224,13 @@ static Status read_expected(const Judgement *judgement, size_t row, Expectation 
     }
     if (number_read(expected, &out->expected))
         return csv_number(csv, row, "uncertainty", 0, &out->uncertainty);
+    if ((times = strstr(expected, " * "))) {
+        TRY(read_factor(csv, expected, times, &factor));
+        expected = times + strlen(" * ");
+    }
     TRY(find_measured(judgement, expected, out->measure, &other));
-    out->expected = other.estimate.value;
-    out->uncertainty = isnan(other.estimate.error) ? 0 : other.estimate.error;
+    out->expected = factor * other.estimate.value;
+    out->uncertainty = isnan(other.estimate.error) ? 0 : factor * other.estimate.error;
     return OK;
 }
 
