@@ -18,6 +18,7 @@ static const struct {
     // With an axis of waiting times: what ages has no coefficient.
     {"mean_squared_displacement", .alone = derive_diffusion, .axes_most = 3},
     {"mean_squared_displacement", .with = derive_free_displacement, .axes_most = 3},
+    {"mean_squared_displacement_centred", .alone = derive_diffusion, .axes_most = 3},
     {"directional_displacement", .alone = derive_directional_diffusion},
     {"directional_displacement", .with = derive_free_bodies},
     {"orientation_correlation", .alone = derive_relaxation},
@@ -58,6 +59,7 @@ static const struct {
     {"structure_factor_cuts", .alone = derive_structure_change},
     {"quartic_displacement", .with = derive_non_gaussian},
     {"overlap_square", .with = derive_susceptibility},
+    {"overlap_square_centred", .with = derive_centred_susceptibility},
     {"stress", .alone = derive_start_up},
     {"stress_harmonics", .alone = derive_harmonics},
     {"contact_stress", .with = derive_contact_stress},

@@ -170,11 +170,12 @@ static double variance(double square, double mean, double particles) {
     return particles * (square - mean * mean);
 }
 
-Status derive_susceptibility(Results *results, const ResultSeries *square, const System *system) {
-    const ResultSeries *overlap = results_find_series(results, square->stage, "overlap");
+static Status susceptibility(Results *results, const ResultSeries *square, const System *system,
+                             const char *observable, const char *name) {
+    const ResultSeries *overlap = results_find_series(results, square->stage, observable);
     if (!overlap || overlap->size != square->size) return OK;
     const Function function = {
-        .name = "four_point_susceptibility",
+        .name = name,
         .about = "chi_4 = N (<Q^2> - <Q>^2) of the overlap Q, over time origins and replicas, at "
                  "fixed numbers of particles.",
         .first = square,
@@ -182,4 +183,14 @@ Status derive_susceptibility(Results *results, const ResultSeries *square, const
         .constant_of = particles_of,
         .of = variance};
     return put(results, &function, system);
+}
+
+Status derive_susceptibility(Results *results, const ResultSeries *square, const System *system) {
+    return susceptibility(results, square, system, "overlap", "four_point_susceptibility");
+}
+
+Status derive_centred_susceptibility(Results *results, const ResultSeries *square,
+                                     const System *system) {
+    return susceptibility(results, square, system, "overlap_centred",
+                          "four_point_susceptibility_centred");
 }

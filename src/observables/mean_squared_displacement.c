@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mean squared displacement <(x(t) - x(0))^2> per species and direction, averaged over particles
-// and time origins (lags.h says which). Coordinates are unfolded. The drift of the centre of mass
-// is left in: a thermostat that redraws velocities conserves no momentum, so the centre of N
-// particles diffuses with D0/N, as that of N Brownian particles does.
+// and time origins (lags.h says which). Coordinates are unfolded. Seen from the box the drift of
+// the centre of mass is left in: a thermostat that redraws velocities conserves no momentum, so the
+// centre of N particles diffuses with D0/N, as that of N Brownian particles does.
 #include "base/memory.h"
+#include "observables/frame.h"
 #include "observables/history.h"
 #include "observables/labels.h"
 #include "observables/put.h"
@@ -13,23 +14,30 @@
 
 typedef struct MsdSettings {
     LagSettings lags;
+    int64_t frame;
 } MsdSettings;
 
 static const Option rows[] = {LAG_OPTIONS(MsdSettings, lags),
-                              WAITING_TIMES_OPTION(MsdSettings, lags)};
+                              WAITING_TIMES_OPTION(MsdSettings, lags),
+                              FRAME_OPTION(MsdSettings, frame)};
 
 typedef struct Msd {
     Observer observer;
     History history; // of unfolded coordinates, [dimension][particles]
     size_t particles, species_count;
     int dimension;
+    int64_t frame;
     size_t population[SPECIES_MOST];
     double *now;     // [dimension][particles]
     double *squares; // [row of lags][species][dimension]: summed over particles and origins
 } Msd;
 
+static const MsdSettings *settings_in(const Settings *settings) {
+    return (const MsdSettings *)settings->bytes;
+}
+
 static const LagSettings *lag_settings(const Settings *settings) {
-    return &((const MsdSettings *)settings->bytes)->lags;
+    return &settings_in(settings)->lags;
 }
 
 static Status check(const Settings *settings, const System *system, const Clock *clock) {
@@ -40,6 +48,7 @@ static Status check(const Settings *settings, const System *system, const Clock 
                            "'%s' is sheared; take non_affine_displacement",
                            clock->stage);
     }
+    TRY(frame_check("mean_squared_displacement", settings_in(settings)->frame, clock));
     return lags_check("mean_squared_displacement", lag_settings(settings), clock);
 }
 
@@ -73,6 +82,7 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     msd->particles = state->count;
     msd->species_count = state->system.species_count;
     msd->dimension = state->box.dimension;
+    msd->frame = settings_in(settings)->frame;
     system_counts(&state->system, msd->population);
     const Lags lags = lags_chosen(lag_settings(settings), clock);
     const Status status = allocate(msd, &lags);
@@ -115,9 +125,12 @@ static void add_displacements(Msd *msd, size_t row, const double *then) {
 static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
     (void)tally;
     Msd *msd = (Msd *)observer;
+    double centre[3];
+    frame_centre(msd->frame, state, centre);
     for (int a = 0; a < msd->dimension; a++) {
         double *now = msd->now + (size_t)a * msd->particles;
-        for (size_t i = 0; i < msd->particles; i++) now[i] = state_unfolded(state, a, i);
+        for (size_t i = 0; i < msd->particles; i++)
+            now[i] = state_unfolded(state, a, i) - centre[a];
     }
     for (size_t k = 0; k < msd->history.lags.count; k++) {
         size_t row = 0;
@@ -173,7 +186,7 @@ static Status put(const Msd *msd, const Labels *species, double *values, double 
     ResultSeries shape = {
         .unit = "d^2",
         .about = "Mean squared displacement <(r(t) - r(0))^2> over particles and time origins; "
-                 "finite size: the centre of mass is left to diffuse.",
+                 "finite size: seen from the box the centre of mass is left to diffuse.",
         .axes = 2,
         .axis = {{.name = "species", .unit = "", .count = species->count, .labels = species->names},
                  {.name = "direction",
@@ -181,8 +194,9 @@ static Status put(const Msd *msd, const Labels *species, double *values, double 
                   .count = (size_t)msd->dimension + 1,
                   .labels = directions[msd->dimension - 2]}}};
     shape.axes += lags_axes(&msd->history.lags, &msd->observer.clock, times, shape.axis + 2);
-    return observer_put_series(&msd->observer, "mean_squared_displacement", &shape, results,
-                               replica, values);
+    const char *name = msd->frame == FRAME_CENTRE_OF_MASS ? "mean_squared_displacement_centred"
+                                                          : "mean_squared_displacement";
+    return observer_put_series(&msd->observer, name, &shape, results, replica, values);
 }
 
 // Of Monte Carlo, which goes by the diffusion tensors: orientations average them.

@@ -14,6 +14,7 @@
 typedef struct OverlapSettings {
     double distance;
     LagSettings lags;
+    int64_t frame;
 } OverlapSettings;
 
 static const Option rows[] = {
@@ -27,6 +28,7 @@ static const Option rows[] = {
      .about = "A particle within it of where it was overlaps with itself."},
     LAG_OPTIONS_OF(OverlapSettings, lags, 10, 32),
     WAITING_OPTIONS(OverlapSettings, lags),
+    FRAME_OPTION(OverlapSettings, frame),
 };
 
 enum { POWERS = 2 };
@@ -44,6 +46,7 @@ static const OverlapSettings *settings_in(const Settings *settings) {
 
 static Status check(const Settings *settings, const System *system, const Clock *clock) {
     (void)system;
+    TRY(frame_check("overlap", settings_in(settings)->frame, clock));
     return lags_check("overlap", &settings_in(settings)->lags, clock);
 }
 
@@ -84,6 +87,7 @@ static Status create(Observer **out, const Settings *settings_, const State *sta
     self->labels = labels_of(state->system.species_count);
     self->motion = (Motion){.observer = {.kind = &observable_overlap, .clock = *clock},
                             .tag = OVERLAP_TAG,
+                            .moves = {.frame = settings->frame},
                             .row_size = self->labels * POWERS,
                             .add_row = add_row};
     return motion_begin(out, &self->motion, state, &lags);
@@ -102,10 +106,12 @@ static void fill(const Overlap *self, size_t power, double *values) {
 
 static Status put(const Overlap *self, const Labels *species, double *values, double *times,
                   Results *results, size_t replica) {
-    static const char *const names[] = {"overlap", "overlap_square"};
+    static const char *const names[][POWERS] = {{"overlap", "overlap_square"},
+                                                {"overlap_centred", "overlap_square_centred"}};
     static const char *const abouts[] = {
         "Fraction of the particles that are near where they were: Q(t), mean over time origins.",
         "Mean of Q(t)^2 over time origins."};
+    const bool centred = self->motion.moves.frame == FRAME_CENTRE_OF_MASS;
     for (size_t power = 0; power < POWERS; power++) {
         ResultSeries shape = {.unit = "",
                               .axes = 1,
@@ -117,8 +123,8 @@ static Status put(const Overlap *self, const Labels *species, double *values, do
         shape.axes += lags_axes(&self->motion.moves.history.lags, &self->motion.observer.clock,
                                 times, shape.axis + shape.axes);
         fill(self, power, values);
-        TRY(observer_put_series(&self->motion.observer, names[power], &shape, results, replica,
-                                values));
+        TRY(observer_put_series(&self->motion.observer, names[centred][power], &shape, results,
+                                replica, values));
     }
     return OK;
 }

@@ -325,18 +325,25 @@ static void walk_adrift(State *state, int64_t tick) {
 }
 
 // What is seen from the centre of mass does not know what carries all particles along: the walk at
-// rest and adrift look the same. _i: bit 0 dimension, bit 1 collective.
+// rest and adrift look the same. _i: bit 0 dimension, the others who looks.
 START_TEST(drift_is_not_seen_from_the_centre_of_mass) {
-    const bool together = _i & 2;
-    const ObservableKind *kind =
-        together ? &observable_collective_scattering : &observable_self_scattering;
-    const char *name = together ? "collective_scattering_about_centre" : "self_scattering_centred";
+    static const struct {
+        const ObservableKind *kind;
+        const char *name;
+    } looks[] = {{&observable_self_scattering, "self_scattering_centred"},
+                 {&observable_collective_scattering, "collective_scattering_about_centre"},
+                 {&observable_mean_squared_displacement, "mean_squared_displacement_centred"},
+                 {&observable_overlap, "overlap_square_centred"}};
+    const ObservableKind *kind = looks[_i >> 1].kind;
+    const char *name = looks[_i >> 1].name;
     static const Mover movers[2] = {walk_to, walk_adrift};
     const System system = system_of(2 + (_i & 1), WALKERS, 0.2, WALK_SPECIES);
     const Clock clock = clock_of(WALK_TICKS, 2);
     Settings settings = settings_of(&kind->options);
-    set_list(&settings, kind, "wave_numbers", (OptionReals){2, {1.5, 2.9}});
-    if (together) set_number(&settings, &kind->options, "shell.width", 0.9);
+    if (_i < 4) set_list(&settings, kind, "wave_numbers", (OptionReals){2, {1.5, 2.9}});
+    if (kind == &observable_collective_scattering)
+        set_number(&settings, &kind->options, "shell.width", 0.9);
+    if (kind == &observable_overlap) set_number(&settings, &kind->options, "distance", 1);
     set_number(&settings, &kind->options, "frame", FRAME_CENTRE_OF_MASS);
     State *state = new_state(&system);
     Results *results[2];
@@ -574,7 +581,7 @@ int main(void) {
     tcase_add_loop_test(c, self_scattering_agrees_with_its_slow_twin, 0, 4);
     tcase_add_loop_test(c, collective_scattering_agrees_with_its_slow_twin, 0, 4);
     tcase_add_loop_test(c, collective_scattering_begins_at_the_structure_factor, 0, 2);
-    tcase_add_loop_test(c, drift_is_not_seen_from_the_centre_of_mass, 0, 4);
+    tcase_add_loop_test(c, drift_is_not_seen_from_the_centre_of_mass, 0, 8);
     tcase_add_loop_test(c, moments_agree_with_their_slow_twin, 0, 4);
     tcase_add_loop_test(c, overlap_agrees_with_its_slow_twin, 0, 4);
     tcase_add_loop_test(c, van_hove_function_agrees_with_its_slow_twin, 0, 4);
