@@ -99,21 +99,12 @@ static bool shape_series(ResultSeries *shape, const Results *all, const Axes *ax
     return true;
 }
 
-static bool is_listed(const char *list, const char *name) {
-    const size_t length = strlen(name);
-    for (const char *at = list; (at = strstr(at, name)); at += length) {
-        const bool begins = at == list || at[-1] == ' ';
-        if (begins && (at[length] == '\0' || at[length] == ',')) return true;
-    }
-    return false;
-}
-
 // Adds it to the fact that lists what could not be laid side by side.
 static Status list_left_out(Results *all, const ResultSeries *series) {
     char name[2 * RESULT_NAME];
     const char *list = results_find_fact(all, RESULTS_NOT_SIDE_BY_SIDE);
+    if (!results_side_by_side(all, series)) return OK;
     snprintf(name, sizeof name, "%s/%s", series->stage, series->observable);
-    if (list && is_listed(list, name)) return OK;
     Text longer = {0};
     text_add(&longer, "%s%s%s", list ? list : "", list ? ", " : "", name);
     Status status = text_status(&longer);

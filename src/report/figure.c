@@ -32,12 +32,34 @@ static bool has_axis(const ResultSeries *series, const char *name) {
     return false;
 }
 
-const FigureKind *figure_kind_of(const ResultSeries *series) {
+static const FigureKind *kind_named(const char *observable, const ResultSeries *series) {
     for (size_t i = 0; i < KINDS; i++) {
-        if (strcmp(kinds[i].observable, series->observable) != 0) continue;
+        if (strcmp(kinds[i].observable, observable) != 0) continue;
         if (!kinds[i].axis || has_axis(series, kinds[i].axis)) return &kinds[i];
     }
     return NULL;
+}
+
+// What is made of scattering functions about the centre of mass is drawn like what is made of those
+// that they come from.
+static const struct {
+    const char *centred, *from;
+} CENTRED[] = {{"self_scattering_centred_", "self_scattering_"},
+               {"collective_scattering_centred_", "collective_scattering_normalised_"}};
+
+static bool name_without_centre(char name[2 * RESULT_NAME], const ResultSeries *series) {
+    for (size_t i = 0; i < sizeof CENTRED / sizeof *CENTRED; i++) {
+        const size_t length = strlen(CENTRED[i].centred);
+        if (strncmp(series->observable, CENTRED[i].centred, length) != 0) continue;
+        snprintf(name, 2 * RESULT_NAME, "%s%s", CENTRED[i].from, series->observable + length);
+        return true;
+    }
+    return false;
+}
+
+const FigureKind *figure_kind_of(const ResultSeries *series) {
+    char name[2 * RESULT_NAME];
+    return kind_named(name_without_centre(name, series) ? name : series->observable, series);
 }
 
 // Along the axis that its kind says, or time if there is one, else along the longest axis of
@@ -135,23 +157,26 @@ static bool begins_curve(const Figure *figure, const size_t index[RESULT_AXES]) 
     return true;
 }
 
-// Of any replica, from this element on along x.
-static bool has_numbers(const Figure *figure, size_t first) {
-    const ResultSeries *series = figure->series;
+static bool has_number(const Figure *figure, size_t element) { // of any replica
     for (size_t r = 0; r < figure->results->replicas; r++) {
-        const double *values = series->values + r * series->size + first;
-        for (size_t i = 0; i < figure->x->count; i++) {
-            if (isfinite(values[i * figure->stride])) return true;
-        }
+        if (isfinite(figure->series->values[r * figure->series->size + element])) return true;
     }
     return false;
+}
+
+// Points along x that have a number, from this element on.
+static size_t points_from(const Figure *figure, size_t first) {
+    size_t points = 0;
+    for (size_t i = 0; i < figure->x->count; i++)
+        points += has_number(figure, first + i * figure->stride);
+    return points;
 }
 
 static void choose_curves(Figure *figure) {
     for (size_t element = 0; element < figure->series->size; element++) {
         size_t index[RESULT_AXES];
         show_indices(figure->series, element, index);
-        if (!begins_curve(figure, index) || !has_numbers(figure, element)) continue;
+        if (!begins_curve(figure, index) || points_from(figure, element) == 0) continue;
         if (figure->curve_count == FIGURE_CURVES) {
             figure->left_out++;
             continue;
@@ -209,13 +234,19 @@ bool figure_exists(const Results *results, const ResultSeries *series) {
     const FigureKind *kind = figure_kind_of(series);
     if (kind && kind->aside) return false;
     if (axis_to_draw_along(series) == NO_AXIS || stands_behind_another(series)) return false;
-    return figure_of(results, series).curve_count > 0;
+    const Figure figure = figure_of(results, series);
+    for (size_t c = 0; c < figure.curve_count; c++) {
+        if (figure.y || points_from(&figure, figure.curve[c].first) > 1) return true;
+    }
+    return false;
 }
 
 void figure_title(Text *text, const Figure *figure) {
     const char *name = figure->series->observable;
     if (figure->kind && figure->kind->title) {
+        char from[2 * RESULT_NAME];
         text_put(text, figure->kind->title);
+        if (name_without_centre(from, figure->series)) text_put(text, ", about the centre of mass");
         return;
     }
     const char first = (char)toupper((unsigned char)name[0]);
@@ -271,8 +302,12 @@ void figure_caption(Text *text, const Figure *figure) {
         text_put(text, " One replica, hence no errors.");
     }
     if (figure->left_out > 0 && !figure->y) {
-        text_add(text, " %zu further curves are in the numbers.", figure->left_out);
+        text_add(text, " %zu further curve%s in the numbers.", figure->left_out,
+                 figure->left_out == 1 ? " is" : "s are");
     }
+    if (!results_side_by_side(results, figure->series))
+        text_put(text, " Only of points of the sweep whose other axes are those of the first; the "
+                       "reports of the others have theirs.");
 }
 
 static void put_number(Text *csv, double value) { // empty where there is none

@@ -5,6 +5,7 @@
 #include "report/gnuplot.h"
 #include "report/notation.h"
 #include "report/palette.h"
+#include "report/utf8.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -88,10 +89,10 @@ typedef struct Legend {
 } Legend;
 
 static Legend legend_of(const Figure *figure) {
-    enum { KEY_MOST = 4, WIDTH = 700, LETTER = 9, SAMPLE = 70, ROW = 20 };
+    enum { KEY_MOST = 4, WIDTH = 700, LETTER = 8, SAMPLE = 70, ROW = 20 };
     size_t longest = 1, names = figure->curve_count;
     for (size_t c = 0; c < figure->curve_count; c++) {
-        const size_t letters = strlen(figure->curve[c].title);
+        const size_t letters = utf8_letters(figure->curve[c].title);
         if (letters > longest) longest = letters;
     }
     for (size_t k = 0; k < FIGURE_LIMITS; k++) {
@@ -107,7 +108,8 @@ static void put_key(Text *script, const Figure *figure) {
     const Legend legend = legend_of(figure);
     const char *key = figure->kind && figure->kind->key ? figure->kind->key : "above";
     if (legend.below)
-        text_add(script, "set key below maxcols %zu font ',14' noenhanced samplen 2 spacing 1.2\n",
+        text_add(script,
+                 "set key below height 1 maxcols %zu font ',14' noenhanced samplen 2 spacing 1.2\n",
                  legend.columns);
     else
         text_add(script, "set key %s noenhanced %s\n", key,

@@ -83,14 +83,39 @@ static bool is_one_over_a_letter(const char *unit) {
     return unit[0] == '1' && unit[1] == '/' && unit[2] && !unit[3];
 }
 
+static const struct {
+    const char *name, *letter;
+} GREEK[] = {{"alpha", "α"}, {"beta", "β"}, {"gamma", "γ"}, {"eta", "η"},   {"lambda", "λ"},
+             {"phi", "φ"},   {"psi", "ψ"},  {"rho", "ρ"},   {"sigma", "σ"}, {"tau", "τ"}};
+
+static bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+// Of the Greek letter that the word at `c` names, as in sigma_xy; 0 if it names none.
+static size_t put_greek(Text *text, const char *c) {
+    for (size_t i = 0; i < sizeof GREEK / sizeof *GREEK; i++) {
+        const size_t length = strlen(GREEK[i].name);
+        if (strncmp(c, GREEK[i].name, length) != 0 || is_letter(c[length])) continue;
+        text_put(text, GREEK[i].letter);
+        return length;
+    }
+    return 0;
+}
+
 void notation_unit(Text *text, const char *unit) {
     if (is_one_over_a_letter(unit)) {
         text_add(text, "%s⁻¹", unit + 2);
         return;
     }
     for (const char *c = unit; *c;) {
-        const bool raised = c[0] == '^' && (c[1] == '-' || (c[1] >= '0' && c[1] <= '9'));
-        if (raised) {
+        const char *digit = c[0] == '^' ? c + 1 + (c[1] == '-') : c;
+        const bool raised = c[0] == '^' && *digit >= '0' && *digit <= '9';
+        const bool begins = c == unit || !is_letter(c[-1]);
+        const size_t greek = begins ? put_greek(text, c) : 0;
+        if (greek > 0) {
+            c += greek;
+        } else if (raised) {
             c = put_raised(text, c + 1);
         } else if (strncmp(c, "sqrt", 4) == 0) {
             text_put(text, "√");

@@ -71,12 +71,15 @@ static void put_system(Text *page, const Results *results) {
         html_unit(page, words);
         text_put(page, ".<br>\n");
     }
+}
+
+static void put_left_out(Text *page, const Results *results) {
     const char *list = fact(results, RESULTS_NOT_SIDE_BY_SIDE, NULL);
     if (!list) return;
-    text_put(page, "Not side by side, for their axes are too many or differ (the report of each "
-                   "point has its own): ");
+    text_put(page, "<details class=\"under\"><summary>Series that are not side by side, for their "
+                   "axes are too many or differ: the report of each point has its own</summary>");
     html_words(page, list);
-    text_put(page, ".<br>\n");
+    text_put(page, "</details>\n");
 }
 
 void page_begin(Text *page, const Results *results) {
@@ -100,6 +103,7 @@ void page_begin(Text *page, const Results *results) {
     text_put(page, ", finished ");
     html_words(page, fact(results, "finished", "at an unknown time"));
     text_put(page, ".</p>\n");
+    put_left_out(page, results);
     put_verdict(page, results);
 }
 

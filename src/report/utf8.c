@@ -23,3 +23,9 @@ size_t utf8_length(const char *text) {
     }
     return 0;
 }
+
+size_t utf8_letters(const char *text) {
+    size_t letters = 0;
+    for (const char *c = text; *c; c++) letters += !continues((unsigned char)*c);
+    return letters;
+}

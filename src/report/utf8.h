@@ -6,3 +6,6 @@
 
 // Bytes (1 to 4) of the character that begins here; 0 if none does.
 size_t utf8_length(const char *text);
+
+// Characters of valid UTF-8.
+size_t utf8_letters(const char *text);

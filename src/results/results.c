@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
 
 static Status keep_text(char *field, size_t size, const char *text) {
@@ -277,6 +278,17 @@ const ResultScalar *results_find_scalar(const Results *results, const char *stag
 const char *results_find_fact(const Results *results, const char *name) {
     const ResultFact *fact = find_fact(results, name);
     return fact ? fact->text : NULL;
+}
+
+bool results_side_by_side(const Results *results, const ResultSeries *series) {
+    char name[2 * RESULT_NAME];
+    const int length = snprintf(name, sizeof name, "%s/%s", series->stage, series->observable);
+    const char *list = results_find_fact(results, RESULTS_NOT_SIDE_BY_SIDE);
+    for (const char *at = list ? list : ""; (at = strstr(at, name)); at += length) {
+        const bool begins = at == list || at[-1] == ' ';
+        if (begins && (at[length] == '\0' || at[length] == ',')) return false;
+    }
+    return true;
 }
 
 bool result_healthy(const ResultCounter *counter) {

@@ -85,6 +85,8 @@ const ResultSeries *results_find_series(const Results *results, const char *stag
 const ResultScalar *results_find_scalar(const Results *results, const char *stage,
                                         const char *quantity);
 const char *results_find_fact(const Results *results, const char *name); // NULL if none
+// False of a series that a sweep could not put together from all its points.
+bool results_side_by_side(const Results *results, const ResultSeries *series);
 
 bool result_healthy(const ResultCounter *counter);
 const ResultCounter *results_broken_limit(const Results *results); // the first; NULL if healthy

@@ -105,7 +105,8 @@ echo 'sweep: {protocol.flow.shear_rate: [1, 2]}' >> flow.yaml
 "$perrin" run flow.yaml --quiet --threads 1 && "$perrin" run ramp.yaml --quiet --threads 1 || exit 1
 expect "what could not be laid side by side is named" \
     sh -c "'$perrin' show flow | grep '^not side by side, .*: flow/stress\$'"
-expect "and on the page" grep -q 'Not side by side, .*: flow/stress' flow/report.html
+expect "and on the page" grep -q 'not side by side.*flow/stress' flow/report.html
+expect "under the figure, too" grep -q 'Only of points of the sweep' flow/report.html
 expect "rates from a file are those that they say" \
     sh -c "'$perrin' show flow/shear_rate=2 shear_stress --csv | cut -d, -f2 > a &&
            '$perrin' show ramp shear_stress --csv | cut -d, -f2 > b && test -s a && cmp a b"

@@ -65,6 +65,11 @@ START_TEST(units_are_set_with_raised_and_lowered_digits) {
     notation_unit(&text, "1/d");
     ck_assert_str_eq(text_words(&text), "d⁻¹");
     text_free(&text);
+    notation_unit(&text,
+                  "sigma_xy, G -> (t/t0)^-a, exp(-(t/tau)^beta), method, phi_c; betas, beat");
+    ck_assert_str_eq(text_words(&text),
+                     "σ_xy, G -> (t/t0)^-a, exp(-(t/τ)^β), method, φ_c; betas, beat");
+    text_free(&text);
 }
 END_TEST
 
@@ -414,6 +419,52 @@ START_TEST(an_observable_without_a_row_is_drawn_by_the_plain_rule) {
 }
 END_TEST
 
+// Relaxation times over four densities and two wave numbers, which the points of a sweep had in
+// common with the first: with `points` numbers of each.
+static void figure_of_a_sweep(size_t points, bool together, bool *exists, Text *caption) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    const double density[] = {0.5, 0.6, 0.7, 0.8}, q[] = {3, 6};
+    const ResultSeries shape = {
+        .stage = "rest",
+        .observable = "self_scattering_centred_relaxation_time",
+        .unit = "d^2/D0",
+        .about = "tau.",
+        .axes = 2,
+        .axis = {{.name = "packing_fraction", .unit = "", .count = 4, .values = density},
+                 {.name = "wave_number", .unit = "1/d", .count = 2, .values = q}}};
+    double values[8];
+    for (size_t i = 0; i < 8; i++) values[i] = i < 2 * points ? 1 : NAN;
+    results_put_series(results, &shape, 0, values);
+    if (!together)
+        results_put_fact(results, RESULTS_NOT_SIDE_BY_SIDE,
+                         "rest/pressure, rest/self_scattering_centred_relaxation_time");
+    *exists = figure_exists(results, &results->series[0]);
+    const Figure figure = figure_of(results, &results->series[0]);
+    figure_title(caption, &figure);
+    figure_caption(caption, &figure);
+    results_free(results);
+}
+
+START_TEST(a_figure_of_a_sweep_says_which_points_it_lacks) {
+    bool exists = false;
+    Text text = {0};
+    figure_of_a_sweep(4, true, &exists, &text);
+    ck_assert(exists);
+    ck_assert_ptr_null(strstr(text_words(&text), "Only of points"));
+    ck_assert_ptr_nonnull(
+        strstr(text_words(&text), "Relaxation time, self-scattering, about the centre of mass"));
+    text_free(&text);
+    figure_of_a_sweep(2, false, &exists, &text);
+    ck_assert(exists);
+    ck_assert_ptr_nonnull(strstr(text_words(&text), "Only of points of the sweep"));
+    text_free(&text);
+    figure_of_a_sweep(1, false, &exists, &text); // a point is no curve
+    ck_assert(!exists);
+    text_free(&text);
+}
+END_TEST
+
 // Friction at three forces, and what theory says of weak ones, over their half of the axis.
 START_TEST(a_limit_is_drawn_over_its_half_of_the_axis) {
     Results *results = NULL;
@@ -528,6 +579,7 @@ int main(void) {
     tcase_add_test(tests, a_broken_limit_is_the_first_thing_a_reader_sees);
     tcase_add_test(tests, where_nothing_can_be_written_the_sentence_names_the_path);
     tcase_add_test(tests, an_observable_without_a_row_is_drawn_by_the_plain_rule);
+    tcase_add_test(tests, a_figure_of_a_sweep_says_which_points_it_lacks);
     tcase_add_test(tests, a_limit_is_drawn_over_its_half_of_the_axis);
     tcase_add_test(tests, a_series_over_a_plane_is_drawn_as_a_picture);
     tcase_add_test(tests, a_caption_says_where_the_only_number_of_an_axis_is);
