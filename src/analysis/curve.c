@@ -18,22 +18,33 @@ Status curve_weights(double **weights, const ResultAxis *time) {
     return OK;
 }
 
+static size_t lags_seen(const double *values, size_t lags) {
+    while (lags > 0 && isnan(values[lags - 1])) lags--;
+    return lags;
+}
+
 Curve curve_in(const Results *results, const ResultSeries *series, size_t row, double *weights) {
     const ResultAxis *time = &series->axis[series->axes - 1];
-    return (Curve){.results = results,
+    Curve curve = {.results = results,
                    .series = series,
                    .times = time->values,
-                   .lags = time->count,
+                   .stride = time->count,
                    .row = row,
+                   .lags = time->count,
                    .weights = weights};
+    for (size_t replica = 0; replica < results->replicas; replica++) {
+        const size_t seen = lags_seen(curve_of(&curve, replica), time->count);
+        if (seen > 0 && seen < curve.lags) curve.lags = seen;
+    }
+    return curve;
 }
 
 const double *curve_of(const Curve *curve, size_t replica) {
-    return curve->series->values + replica * curve->series->size + curve->row * curve->lags;
+    return curve->series->values + replica * curve->series->size + curve->row * curve->stride;
 }
 
 double curve_mean(const Curve *curve, size_t lag) {
-    return results_series_estimate(curve->results, curve->series, curve->row * curve->lags + lag)
+    return results_series_estimate(curve->results, curve->series, curve->row * curve->stride + lag)
         .value;
 }
 

@@ -13,13 +13,15 @@
 
 enum { CURVE_LAGS_LEAST = 3 }; // in each half of a window
 
-// One curve of a series whose last axis is time.
+// One curve of a series whose last axis is time, up to the last lag that all replicas saw: a stage
+// may end before its limit, in each replica elsewhere.
 typedef struct Curve {
     const Results *results;
     const ResultSeries *series;
     const double *times;
-    size_t lags, row; // values[replica][row * lags + lag]
-    double *weights;  // [lags], 1/t^2
+    size_t stride, row; // values[replica][row * stride + lag]
+    size_t lags;
+    double *weights; // [lags], 1/t^2
 } Curve;
 
 // `weights` are made by the first and freed by the owner of the curve.

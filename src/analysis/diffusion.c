@@ -81,6 +81,7 @@ static bool is_brownian(const ResultSeries *series) {
 }
 
 static Status derive_from(Results *results, const Displacement *of, bool short_too) {
+    if (of->curve.lags < CURVE_LAGS_LEAST) return OK;
     const bool brownian = is_brownian(of->curve.series);
     if (brownian && short_too) TRY(put_short(results, of));
     return put_long(results, of, brownian ? "D0" : "d sqrt(kT/m)");

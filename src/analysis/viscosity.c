@@ -76,8 +76,9 @@ Status derive_viscosity(Results *results, const ResultSeries *wandering, const S
     if (status == OK) status = NEW_ARRAY(times, count);
     if (status == OK) {
         const Curve curve = curve_in(results, wandering, 0, weights);
-        status = put_zero_shear(results, &curve, system);
-        if (status == OK) status = put_slopes(results, &curve, system, slopes, times);
+        const bool enough = curve.lags >= CURVE_LAGS_LEAST;
+        if (enough) status = put_zero_shear(results, &curve, system);
+        if (enough && status == OK) status = put_slopes(results, &curve, system, slopes, times);
     }
     memory_free(weights);
     memory_free(slopes);

@@ -116,6 +116,28 @@ START_TEST(long_time_diffusion_is_the_slope_beyond_the_cage) {
 }
 END_TEST
 
+// Stages may end before their limit: replicas have seen lags up to others then.
+START_TEST(long_time_diffusion_is_of_the_lags_that_were_seen) {
+    const System system = system_of(2, 1000, 0.7, 1);
+    Results *whole = displacements(0.05, 0.1, 0.1, 0.005, "d^2/D0");
+    Results *early = displacements(0.05, 0.1, 0.1, 0.005, "d^2/D0");
+    const ResultSeries *seen = series_of(early, "quiescent", "mean_squared_displacement");
+    for (size_t k = 0; k < seen->size; k++) {
+        if (k % LAGS >= LAGS - 4) seen->values[seen->size + k] = NAN; // of the second replica
+    }
+    ck_assert_int_eq(analysis_derive(whole, &system), OK);
+    ck_assert_int_eq(analysis_derive(early, &system), OK);
+    const double error = error_of(early, "quiescent", "long_time_diffusion");
+    ck_assert_double_eq_tol(scalar_of(early, "quiescent", "long_time_diffusion"), 0.05, 4 * error);
+    ck_assert_double_lt(error, 0.001);
+    ck_assert_double_gt(fabs(scalar_of(early, "quiescent", "long_time_diffusion") -
+                             scalar_of(whole, "quiescent", "long_time_diffusion")),
+                        0);
+    results_free(whole);
+    results_free(early);
+}
+END_TEST
+
 START_TEST(where_the_slope_still_falls_the_last_stretch_is_taken) {
     const System system = system_of(2, 1000, 0.7, 1);
     Results *results = displacements(0.001, 10, 5, 1e-6, "d^2/D0");
@@ -541,6 +563,7 @@ int main(void) {
     tcase_add_loop_test(c, dilute_limit_is_the_second_virial_coefficient, 0, 4);
     tcase_add_loop_test(c, a_dilute_gas_collides_as_kinetic_theory_says, 0, 2);
     tcase_add_test(c, long_time_diffusion_is_the_slope_beyond_the_cage);
+    tcase_add_test(c, long_time_diffusion_is_of_the_lags_that_were_seen);
     tcase_add_test(c, where_the_slope_still_falls_the_last_stretch_is_taken);
     tcase_add_test(c, short_time_diffusion_is_where_flight_ends);
     tcase_add_test(c, newtonian_flight_has_no_brownian_short_time);
