@@ -19,6 +19,7 @@ typedef struct CycleSquares {
 struct ChainClock {
     ClockSettings settings;
     State *state;
+    RngKey key;
     Chain *chain;
     size_t species_count, counts[SPECIES_MOST];
     double step[SPECIES_MOST];
@@ -38,8 +39,10 @@ struct ChainClock {
 Status clock_create(ChainClock **out, const ClockSettings *settings, State *state, RngKey key) {
     ChainClock *clock = NULL;
     TRY(NEW(clock));
-    *clock = (ChainClock){
-        .settings = *settings, .state = state, .species_count = state->system.species_count};
+    *clock = (ChainClock){.settings = *settings,
+                          .state = state,
+                          .key = key,
+                          .species_count = state->system.species_count};
     system_counts(&state->system, clock->counts);
     Status status = chain_create(&clock->chain, &settings->chain, state, key);
     for (int a = 0; a < 6 && status == OK; a++) status = NEW_ARRAY(clock->mark[a], state->count);
@@ -251,6 +254,15 @@ void clock_calibrate(ChainClock *clock, bool calibrating) {
 
 void clock_publish(ChainClock *clock) {
     chain_publish(clock->chain);
+}
+
+Status clock_take_in(ChainClock *clock) {
+    Chain *chain = NULL;
+    TRY(chain_create(&chain, &clock->settings.chain, clock->state, clock->key));
+    chain_free(clock->chain);
+    clock->chain = chain;
+    for (size_t s = 0; s < clock->species_count; s++) clock_set_step(clock, s, clock->step[s]);
+    return OK;
 }
 
 // Time.

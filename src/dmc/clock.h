@@ -63,7 +63,8 @@ void clock_restart(ChainClock *clock);
 // Trials are counted for the clock and, if it is not NULL, in the tally. run(a), run(b) counts and
 // moves as run(a + b), but for the rounding of sums.
 Status clock_run(ChainClock *clock, int64_t trials, Tally *tally);
-void clock_publish(ChainClock *clock); // see chain_publish
+void clock_publish(ChainClock *clock);   // see chain_publish
+Status clock_take_in(ChainClock *clock); // the published State, which somebody has changed since
 
 // While it calibrates, many more whole cycles are measured. Between whole cycles only.
 void clock_calibrate(ChainClock *clock, bool calibrating);

@@ -96,11 +96,13 @@ static const Option rows[] = {
 typedef struct DynamicPropagator {
     Propagator base;
     State *state;
+    RngKey key;
     Dynamic set;
     double tick; // in d^2/D0
     ChainClock *clock;
     bool pulled;
-    size_t tracer;        // species
+    size_t tracer; // species
+    size_t particle;
     int64_t period, pull; // ticks of a trajectory's period, and from its start with the force
     int64_t ticks;        // done
     TracerSettling settling;
@@ -271,6 +273,7 @@ static Status create(Propagator **out, const Settings *settings, State *state, R
     TRY(NEW(made));
     made->base.kind = &propagator_dynamic_monte_carlo;
     made->state = state;
+    made->key = key;
     made->set = *dynamic(settings);
     made->tick = tick(settings, &state->system);
     const ClockSettings clock = {.chain = chain_settings(&made->set),
@@ -339,6 +342,7 @@ static Status drive(Propagator *propagator, const Drive *drive, int64_t steps) {
     const System *system = &made->state->system;
     made->pulled = true;
     made->tracer = tracer_species(pull, system);
+    made->particle = tracer_particle(pull, system);
     made->ticks = steps;
     drive_pull_ticks(pull, made->tick, 1, &made->period, &made->pull);
     clock_pull(made->clock,
@@ -455,11 +459,20 @@ static Status prepare(Propagator *propagator) {
     return check_one_clock(made, &agreement);
 }
 
+static Status begin_trajectory(DynamicPropagator *made) {
+    State *state = made->state;
+    clock_publish(made->clock);
+    TRY(tracer_take_another_place(state, made->particle, made->key));
+    return clock_take_in(made->clock);
+}
+
 static Status advance(Propagator *propagator, int64_t ticks, Tally *tally) {
     DynamicPropagator *made = own(propagator);
-    for (int64_t t = 0; t < ticks; t++, made->ticks++) {
+    for (int64_t t = 0; t < ticks; t++) {
         if (made->pulled) clock_pull_rests(made->clock, made->ticks % made->period >= made->pull);
         TRY(clock_advance(made->clock, made->tick, tally));
+        made->ticks++;
+        if (made->pulled && made->ticks % made->period == 0) TRY(begin_trajectory(made));
     }
     clock_publish(made->clock);
     tally->settling = made->pulled ? &made->settling : NULL;

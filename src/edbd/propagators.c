@@ -56,9 +56,14 @@ static const Option newtonian_rows[] = {
 typedef struct EnginePropagator {
     Propagator base;
     Engine *engine;
-    const State *state; // borrowed
-    double step_time;   // in the unit of the method
-    double interval;    // between draws of the velocities, in d sqrt(m/kT)
+    EngineSettings settings;
+    EnginePull pull;
+    RngKey key;
+    State *state;     // borrowed
+    double step_time; // in the unit of the method
+    double interval;  // between draws of the velocities, in d sqrt(m/kT)
+    int64_t tick;     // of the stage in which a tracer is pulled
+    int64_t period;   // ticks of its trajectories
 } EnginePropagator;
 
 static const EventDriven *event_driven(const Settings *settings) {
@@ -176,6 +181,9 @@ static Status propagator_create(Propagator **out, const PropagatorKind *kind,
     TRY(NEW(propagator));
     propagator->base.kind = kind;
     propagator->state = state;
+    propagator->settings = *settings;
+    propagator->key = key;
+    propagator->period = INT64_MAX;
     propagator->step_time = step_time;
     const Status status = engine_create(&propagator->engine, settings, state, key);
     if (status != OK) {
@@ -239,22 +247,26 @@ static Status event_driven_check_drive(const Settings *settings, const System *s
     return check_flow(settings, system, &drive->flow);
 }
 
-static Status pull(EnginePropagator *driven, const Pull *pull, int64_t begun) {
+static Status pull(EnginePropagator *driven, const Pull *pull, int64_t steps) {
     const System *system = &driven->state->system;
-    EnginePull tracer = {.particle = tracer_particle(pull, system),
-                         .axis = (int)pull->axis,
-                         .drift = pulled_drift(pull, system, driven->interval),
-                         .begun = begun};
-    drive_pull_ticks(pull, driven->step_time, 1, &tracer.period, &tracer.on);
-    engine_pull(driven->engine, &tracer);
+    const int64_t ticks_per_step = driven->settings.windows_per_step;
+    driven->pull = (EnginePull){.particle = tracer_particle(pull, system),
+                                .axis = (int)pull->axis,
+                                .drift = pulled_drift(pull, system, driven->interval),
+                                .begun = driven->state->step - steps};
+    drive_pull_ticks(pull, driven->step_time, 1, &driven->pull.period, &driven->pull.on);
+    driven->tick = steps * ticks_per_step;
+    if (driven->pull.period < INT64_MAX / ticks_per_step)
+        driven->period = driven->pull.period * ticks_per_step;
+    engine_pull(driven->engine, &driven->pull);
     return OK;
 }
 
 static Status event_driven_drive(Propagator *propagator, const Drive *drive, int64_t steps) {
     EnginePropagator *driven = (EnginePropagator *)propagator;
-    const int64_t begun = driven->state->step - steps;
-    if (drive_kinds(drive) & DRIVE_PULL) return pull(driven, &drive->pull, begun);
-    const EngineFlow flow = {.flow = &drive->flow, .step_time = driven->step_time, .begun = begun};
+    if (drive_kinds(drive) & DRIVE_PULL) return pull(driven, &drive->pull, steps);
+    const EngineFlow flow = {
+        .flow = &drive->flow, .step_time = driven->step_time, .begun = driven->state->step - steps};
     return engine_shear(driven->engine, &flow);
 }
 
@@ -318,8 +330,26 @@ Engine *propagator_engine(Propagator *propagator) {
     return ((EnginePropagator *)propagator)->engine;
 }
 
+static Status begin_trajectory(EnginePropagator *driven) {
+    TRY(tracer_take_another_place(driven->state, driven->pull.particle, driven->key));
+    engine_free(driven->engine);
+    driven->engine = NULL;
+    TRY(engine_create(&driven->engine, &driven->settings, driven->state, driven->key));
+    engine_pull(driven->engine, &driven->pull);
+    return OK;
+}
+
 static Status advance(Propagator *propagator, int64_t ticks, Tally *tally) {
-    return engine_advance(propagator_engine(propagator), ticks, tally);
+    EnginePropagator *driven = (EnginePropagator *)propagator;
+    while (ticks > 0) {
+        const int64_t left = driven->period - driven->tick % driven->period;
+        const int64_t part = ticks < left ? ticks : left;
+        TRY(engine_advance(driven->engine, part, tally));
+        driven->tick += part;
+        ticks -= part;
+        if (part == left) TRY(begin_trajectory(driven));
+    }
+    return OK;
 }
 
 static void release(Propagator *propagator) {

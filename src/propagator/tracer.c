@@ -2,6 +2,8 @@
 // The tracer of a pull: one particle, of a species of its own, after those of the bath.
 #include "propagator/tracer.h"
 
+#include "shapes/overlap.h"
+
 #include <string.h>
 
 size_t tracer_species(const Pull *pull, const System *system) {
@@ -60,4 +62,82 @@ double tracer_free_diffusion(const Pull *pull, const System *system, bool thermo
     const Species *tracer = &system->species[tracer_species(pull, system)];
     if (thermostatted) return system->species[0].mass / tracer->mass;
     return species_diffusion(tracer).parallel / system_reference_diffusion(system);
+}
+
+// Another place
+
+static bool is_alike(const State *state, size_t i, size_t j) {
+    const Species *species = state->system.species;
+    return i != j && state->diameter[i] == state->diameter[j] &&
+           species[state->species_of[i]].shape == species[state->species_of[j]].shape;
+}
+
+// Which of those like the tracer, from 0 on; the count if it is none of so many.
+static size_t find_alike(const State *state, size_t tracer, uint64_t which) {
+    size_t i = 0;
+    for (uint64_t seen = 0; i < state->count; i++) {
+        if (is_alike(state, i, tracer) && seen++ == which) break;
+    }
+    return i;
+}
+
+static void change_places(State *state, size_t i, size_t j) {
+    for (int a = 0; a < 3; a++) {
+        const double place = state->position[a][i];
+        const int32_t image = state->image[a][i];
+        state->position[a][i] = state->position[a][j];
+        state->image[a][i] = state->image[a][j];
+        state->position[a][j] = place;
+        state->image[a][j] = image;
+    }
+}
+
+static Body body_of(const State *state, size_t i) {
+    Body body = species_body(&state->system.species[state->species_of[i]]);
+    body.diameter = state->diameter[i];
+    return body;
+}
+
+// Would it touch nothing there, nor where an engine's rounding puts it? Soft spheres count as hard.
+static bool is_free(const State *state, size_t tracer, const double place[3]) {
+    static const double CLEAR = 1 + 1e-6;
+    Body own = body_of(state, tracer);
+    own.diameter *= CLEAR;
+    for (size_t i = 0; i < state->count; i++) {
+        const Body other = body_of(state, i);
+        double r[3], axis[3] = {0, 0, 1};
+        for (int a = 0; a < 3; a++) {
+            r[a] = state->position[a][i] - place[a];
+            if (state->oriented) axis[a] = state->orientation[a][i];
+        }
+        box_nearest_image(&state->box, r);
+        if (i != tracer && overlap_of(&own, (double[3]){0, 0, 1}, &other, axis, r)) return false;
+    }
+    return true;
+}
+
+static Status insert(State *state, size_t tracer, Rng *rng) {
+    static const int ATTEMPTS = 1000000;
+    for (int k = 0; k < ATTEMPTS; k++) {
+        double place[3] = {0};
+        for (int a = 0; a < state->box.dimension; a++) {
+            place[a] = rng_uniform(rng) * state->box.edge[a];
+        }
+        if (!is_free(state, tracer, place)) continue;
+        for (int a = 0; a < 3; a++) state->position[a][tracer] = place[a];
+        return OK;
+    }
+    return status_fail(UNHEALTHY,
+                       "the tracer's next trajectory begins at a random place, and of %d none had "
+                       "room for it; leave out the period, so that each replica is a trajectory",
+                       ATTEMPTS);
+}
+
+Status tracer_take_another_place(State *state, size_t tracer, RngKey key) {
+    Rng rng = rng_open(key, STREAM_TRACER, (uint64_t)state->step, tracer);
+    uint64_t alike = 0;
+    for (size_t i = 0; i < state->count; i++) alike += is_alike(state, i, tracer);
+    if (alike == 0) return insert(state, tracer, &rng);
+    change_places(state, tracer, find_alike(state, tracer, rng_below(&rng, alike)));
+    return OK;
 }

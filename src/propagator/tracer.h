@@ -3,7 +3,8 @@
 #pragma once
 
 #include "propagator/drive.h"
-#include "state/system.h"
+#include "rng/rng.h"
+#include "state/state.h"
 
 // Index of the tracer's species; species_count if there is none of this name.
 size_t tracer_species(const Pull *pull, const System *system);
@@ -13,6 +14,12 @@ size_t tracer_particle(const Pull *pull, const System *system); // its id
 Status tracer_check(const Pull *pull, const System *system);
 // BAD_DATA with a sentence if a strongly pulled tracer would come into its own wake.
 Status tracer_check_box(const Pull *pull, const System *system);
+
+// Where the next trajectory begins: the tracer changes places with a particle of its shape and
+// size, drawn at random; where there is none, it goes to a random place where it touches nothing. A
+// pure function of the key, the state's step and the configuration. UNHEALTHY with a sentence if no
+// place is found.
+Status tracer_take_another_place(State *state, size_t tracer, RngKey key);
 
 // From masses, as a thermostat gives them; else from the shapes, as Monte Carlo takes them: the
 // free diffusion coefficient of the tracer, in D0.

@@ -151,8 +151,9 @@ typedef struct Flight {
 
 enum { PARTS = 4000, INTERVALS = 10 };
 
-// Of a tracer of twice the first species' mass, event-driven: displacements in each of the parts;
-// returns the time of a part.
+// Of a tracer of twice the first species' mass, event-driven: displacements in each of the parts,
+// and the time of a part. An interval of rest comes after it, at whose end the tracer begins
+// somewhere else.
 static double fly(const Flight *flight, double peclet, double displacement[PARTS][3]) {
     State *state = two(false);
     state->system.species[1].mass = state->mass[1] = 2;
@@ -165,8 +166,8 @@ static double fly(const Flight *flight, double peclet, double displacement[PARTS
     const Drive drive = {.pull = {.species = "tracer",
                                   .peclet = peclet,
                                   .axis = AXIS,
-                                  .period = INTERVALS * step,
-                                  .rest = (double)flight->rest * step}};
+                                  .period = (INTERVALS + 1) * step,
+                                  .rest = (double)(flight->rest + 1) * step}};
     Propagator *propagator = NULL;
     Tally tally = {0};
     ck_assert_int_eq(kind->create(&propagator, &settings, state, KEY), OK);
@@ -175,6 +176,7 @@ static double fly(const Flight *flight, double peclet, double displacement[PARTS
         for (int a = 0; a < 3; a++) displacement[p][a] = -state_unfolded(state, a, 1);
         ck_assert_int_eq(kind->advance(propagator, INTERVALS * per_step, &tally), OK);
         for (int a = 0; a < 3; a++) displacement[p][a] += state_unfolded(state, a, 1);
+        ck_assert_int_eq(kind->advance(propagator, per_step, &tally), OK);
     }
     kind->free(propagator);
     state_free(state);
