@@ -21,7 +21,7 @@
 static const double HALF_DECADE = 3.1622776601683795;
 static const double DEEP_ENOUGH = 0.9;  // of the lower of the two maxima
 static const double HIGH_ENOUGH = 0.05; // of the higher one, for the lower: noise is no maximum
-static const double STILL_THERE = 0.1;  // of the function at the first lag: later is no plateau
+static const double STILL_THERE = 0.1;  // of the function, 1 at t = 0: later is no plateau
 static const double FLAT_ENOUGH = 0.25; // of the first maximum: the end of a glass
 static const double ALIKE = 0.1;        // the most that X_q differ by, over 1 + |X|
 static const double CERTAIN = 3;        // standard errors of F_q(t') - F_q(t'')
@@ -89,7 +89,7 @@ static double mean_over_waves(const Sheet *sheet, size_t lag) {
 }
 
 static bool is_still_there(const Sheet *sheet, size_t lag) {
-    return mean_over_waves(sheet, lag) > STILL_THERE * mean_over_waves(sheet, 0);
+    return mean_over_waves(sheet, lag) > STILL_THERE;
 }
 
 static size_t deepest_minimum(const Sheet *sheet) {

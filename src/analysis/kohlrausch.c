@@ -14,8 +14,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double BEGINS_BELOW = 0.98, BEGINS_ABOVE = 0.2; // of the function at the first lag
-static const double ENDS_BELOW = 0.02;                       // noise comes next
+// Levels of functions that are 1 at t = 0, whatever the first lag.
+static const double BEGINS_BELOW = 0.98, BEGINS_ABOVE = 0.2;
+static const double ENDS_BELOW = 0.02; // noise comes next
 static const double HALF_DECADE = 3.1622776601683795;
 enum { POINTS_LEAST = 6, PARAMETERS = 3, STEPS_MOST = 100 };
 
@@ -103,18 +104,17 @@ static void mean_without(Row *row, int64_t without) {
 
 static size_t end_of(const Curve *curve) {
     size_t end = 0;
-    while (end < curve->lags && curve->values[end] > ENDS_BELOW * curve->values[0]) end++;
+    while (end < curve->lags && curve->values[end] > ENDS_BELOW) end++;
     return end;
 }
 
 // Of what there is to decay: of the plateau, where that is known.
 static bool may_begin(const Row *row, size_t k) {
     const Curve *curve = &row->curve;
-    const double share = curve->values[k] / curve->values[0];
-    const double height =
-        decay_value_at(curve->times, curve->values, curve->lags, row->plateau) / curve->values[0];
+    const double height = decay_value_at(curve->times, curve->values, curve->lags, row->plateau);
     const double least = BEGINS_ABOVE * (isnan(height) ? 1 : height);
-    return share < BEGINS_BELOW && share > least && curve->times[k] > 0;
+    const double value = curve->values[k];
+    return value < BEGINS_BELOW && value > least && curve->times[k] > 0;
 }
 
 // The law is chosen among those that begin behind the plateau.
@@ -167,7 +167,7 @@ enum { RELAXATION_TIME = NUMBERS, WINDOW, QUANTITIES };
 static void quantities(const Row *row, double out[QUANTITIES]) {
     const Law law = row->curve.begin < row->curve.end ? fit(row->curve) : NO_LAW;
     memcpy(out, law.number, sizeof law.number);
-    out[RELAXATION_TIME] = time_at(&row->curve, row->mean[0] / exp(1));
+    out[RELAXATION_TIME] = time_at(&row->curve, 1 / exp(1));
     out[WINDOW] =
         row->curve.begin < row->curve.lags ? row->curve.times[row->curve.begin] : (double)NAN;
 }

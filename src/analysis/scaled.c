@@ -16,7 +16,7 @@ static const double FIRST = 1e-4; // up to 10
 
 static void scale(const double *times, const double *mean, size_t lags, const double *grid,
                   double *out) {
-    const double tau = decay_time_at(times, mean, lags, mean[0] / exp(1));
+    const double tau = decay_time_at(times, mean, lags, 1 / exp(1));
     for (size_t i = 0; i < POINTS; i++)
         out[i] = isnan(tau) ? (double)NAN : decay_value_at(times, mean, lags, tau * grid[i]);
 }
