@@ -15,19 +15,24 @@ set xrange [0:1]
 set xlabel "t ω/2π"
 plot for [i = 1:4] "glass-".amplitude(i)."-cycle.csv" using 1:2 with lines \
      linetype i title "amplitude ".amplitude(i)
-set key maxrows 3
+set key maxrows auto
 set logscale xy
-set yrange [1e-4:1e2]
+set yrange [1e-6:1e2]
 set format "10^{%L}"
 set xrange [0.015:1.4]
 set xlabel "amplitude of the strain"
 set ylabel "moduli in kT/d^2"
 set key bottom left
 glass(measure, value) = (strcol(2) eq "glass" ? of(measure, 4, value) : NaN)
+stats "measured.csv" using (of("glass-0.02", 1, of("storage", 4, $5))) name "G" nooutput
+stats "measured.csv" using (of("schematic-0.02", 1, of("storage", 4, $5))) name "M" nooutput
+model(name) = "< grep ',schematic,.*,".name.",' measured.csv"
 plot "measured.csv" using 3:(glass("storage", $5)):6 with yerrorbars linetype 1 title "G', glass", \
      "" using 3:(glass("loss", $5)):6 with yerrorbars linetype 2 title "G''", \
-     "" using 3:(glass("third", $5)):6 with yerrorbars linetype 3 title "third harmonic over first"
-set key maxrows auto
+     "" using 3:(glass("third", $5)):6 with yerrorbars linetype 3 title "third harmonic over first", \
+     model("storage") using 3:($5*G_mean/M_mean) with lines linetype 1 title "schematic model, scaled to G'(0.02)", \
+     model("loss") using 3:($5*G_mean/M_mean) with lines linetype 2 notitle, \
+     model("third") using 3:5 with lines linetype 3 notitle
 set xrange [0.5:200]
 set xlabel "ω in D_0/d^2"
 set ylabel "moduli in kT/d^2"

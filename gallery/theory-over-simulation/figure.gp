@@ -32,7 +32,7 @@ set xlabel "t in d^2/D_0"
 set xrange [3e-4:100]
 set yrange [0:1]
 set ylabel "F^s(q,t), q d = 6.6"
-set key at graph 0.02, 0.5
+set key inside bottom left
 plot "glass-rest.csv" using 1:2:3 with yerrorbars linetype 5 title "0.8027 at rest", \
      "glass-y.csv" using 1:2:3 with yerrorbars linetype 2 title "sheared, q along y", \
      "glass--xy.csv" using 1:2:3 with yerrorbars linetype 4 title "-xy", \
@@ -43,7 +43,7 @@ set xlabel "strain"
 set ylabel "F^s(q,t), q d = 6.6, all directions"
 set xrange [0.02:3]
 set format x "%g"
-set key at graph 0.02, 0.4
+set key bottom left
 plot "glass-x.csv" using ($1*0.1):2:3 with yerrorbars linetype 1 title "x", \
      "glass-y.csv" using ($1*0.1):2:3 with yerrorbars linetype 2 title "y", \
      "glass-xy.csv" using ($1*0.1):2:3 with yerrorbars linetype 3 title "xy", \
