@@ -121,18 +121,30 @@ KERNEL Reals sine_of_half_circle(Words word) {
 enum { CHUNK = 256 };
 typedef struct Chunk {
     _Alignas(4 * LANES) uint32_t x[CHUNK], y[CHUNK]; // words of each particle
-    _Alignas(4 * LANES) float normals[3][CHUNK];
 } Chunk;
 
 #define LOAD(vector, array) memcpy(&(vector), (array), sizeof(vector))
 #define STORE(vector, array) memcpy((array), &(vector), sizeof(vector))
 
+KERNEL Words load_ids(const uint32_t *ids, size_t count) {
+    Words x = {0};
+    if (count >= LANES)
+        LOAD(x, ids);
+    else
+        memcpy(&x, ids, count * sizeof *ids);
+    return x;
+}
+
+KERNEL void store_normals(Reals normals, float *to, size_t count) {
+    if (count >= LANES)
+        STORE(normals, to);
+    else
+        memcpy(to, &normals, count * sizeof *to);
+}
+
 KERNEL void draw_words(Chunk *chunk, const uint32_t key[3], const uint32_t *ids, size_t count) {
-    memset(chunk->x, 0, sizeof chunk->x);
-    memcpy(chunk->x, ids, count * sizeof *ids);
     for (size_t i = 0; i < count; i += LANES) {
-        Words x;
-        LOAD(x, chunk->x + i);
+        Words x = load_ids(ids + i, count - i);
         Words y = x * 0 + key[2];
         threefry(key, &x, &y);
         STORE(x, chunk->x + i);
@@ -142,7 +154,7 @@ KERNEL void draw_words(Chunk *chunk, const uint32_t key[3], const uint32_t *ids,
 
 // Lower bits of the angle's word also refine the radius, which shows in radii above 6.6 and below
 // 3e-5 only.
-KERNEL void transform_two(Chunk *chunk, size_t count) {
+KERNEL void transform_two(const Chunk *chunk, size_t count, float *first, float *second) {
     for (size_t i = 0; i < count; i += LANES) {
         Words x, y;
         Reals cosine, sine;
@@ -150,30 +162,29 @@ KERNEL void transform_two(Chunk *chunk, size_t count) {
         LOAD(y, chunk->y + i);
         const Reals r = radius(x, y);
         direction(y, &cosine, &sine);
-        cosine *= r, sine *= r;
-        STORE(cosine, chunk->normals[0] + i);
-        STORE(sine, chunk->normals[1] + i);
+        store_normals(cosine * r, first + i, count - i);
+        store_normals(sine * r, second + i, count - i);
     }
 }
 
-KERNEL void transform_third(Chunk *chunk, size_t count) {
+KERNEL void transform_third(const Chunk *chunk, size_t count, float *third) {
     for (size_t i = 0; i < count; i += LANES) {
         Words x, y;
         LOAD(x, chunk->x + i);
         LOAD(y, chunk->y + i);
-        const Reals third = radius(x, y) * sine_of_half_circle(y);
-        STORE(third, chunk->normals[2] + i);
+        store_normals(radius(x, y) * sine_of_half_circle(y), third + i, count - i);
     }
 }
 
-// `components` (2 or 3) numbers for each of `count` <= CHUNK particles.
-KERNEL void fill(Chunk *chunk, const NormalsKey *key, const uint32_t *ids, size_t count,
-                 int components) {
-    draw_words(chunk, key->plane, ids, count);
-    transform_two(chunk, count);
+// `components` (2 or 3) numbers for each of `count` <= CHUNK particles, to normals[] + `at`.
+KERNEL void fill(const NormalsKey *key, const uint32_t *ids, size_t count, int components,
+                 float *const normals[3], size_t at) {
+    Chunk chunk;
+    draw_words(&chunk, key->plane, ids, count);
+    transform_two(&chunk, count, normals[0] + at, normals[1] + at);
     if (components == 2) return;
-    draw_words(chunk, key->third, ids, count);
-    transform_third(chunk, count);
+    draw_words(&chunk, key->third, ids, count);
+    transform_third(&chunk, count, normals[2] + at);
 }
 
 KERNEL size_t chunk_size(size_t count, size_t at) {
@@ -182,12 +193,13 @@ KERNEL size_t chunk_size(size_t count, size_t at) {
 
 KERNEL void fill_normals(const NormalsKey *key, const uint32_t *ids, size_t count, int components,
                          double *const normals[3]) {
-    Chunk chunk;
+    float single[3][CHUNK];
     for (size_t at = 0; at < count; at += CHUNK) {
         const size_t size = chunk_size(count, at);
-        fill(&chunk, key, ids + at, size, components);
+        fill(key, ids + at, size, components, (float *const[3]){single[0], single[1], single[2]},
+             0);
         for (int a = 0; a < components; a++) {
-            for (size_t i = 0; i < size; i++) normals[a][at + i] = (double)chunk.normals[a][i];
+            for (size_t i = 0; i < size; i++) normals[a][at + i] = (double)single[a][i];
         }
     }
 }
@@ -195,13 +207,8 @@ KERNEL void fill_normals(const NormalsKey *key, const uint32_t *ids, size_t coun
 // The same numbers as they are before they are widened.
 KERNEL void fill_single(const NormalsKey *key, const uint32_t *ids, size_t count, int components,
                         float *const normals[3]) {
-    Chunk chunk;
     for (size_t at = 0; at < count; at += CHUNK) {
-        const size_t size = chunk_size(count, at);
-        fill(&chunk, key, ids + at, size, components);
-        for (int a = 0; a < components; a++) {
-            memcpy(normals[a] + at, chunk.normals[a], size * sizeof(float));
-        }
+        fill(key, ids + at, chunk_size(count, at), components, normals, at);
     }
 }
 
