@@ -70,26 +70,6 @@ KERNEL void wides_turn(const Wides row[4], Wides column[4]) {
     column[3] = IN_BLOCKS(ab23, cd23, 2, 3, WIDE + 2, WIDE + 3);
 }
 
-// Writes block m of four vectors to `to` + m step, one after the other.
-KERNEL void wides_store_blocks(float *to, size_t step, const Wides x[4]) {
-#if LANES == 8
-    const __m512 ab01 = _mm512_shuffle_f32x4((__m512)x[0], (__m512)x[1], 0x44);
-    const __m512 ab23 = _mm512_shuffle_f32x4((__m512)x[0], (__m512)x[1], 0xee);
-    const __m512 cd01 = _mm512_shuffle_f32x4((__m512)x[2], (__m512)x[3], 0x44);
-    const __m512 cd23 = _mm512_shuffle_f32x4((__m512)x[2], (__m512)x[3], 0xee);
-    _mm512_store_ps(to, _mm512_shuffle_f32x4(ab01, cd01, 0x88));
-    _mm512_store_ps(to + step, _mm512_shuffle_f32x4(ab01, cd01, 0xdd));
-    _mm512_store_ps(to + 2 * step, _mm512_shuffle_f32x4(ab23, cd23, 0x88));
-    _mm512_store_ps(to + 3 * step, _mm512_shuffle_f32x4(ab23, cd23, 0xdd));
-#else
-    for (size_t m = 0; m < WIDE / 4; m++) {
-        for (size_t k = 0; k < 4; k++) {
-            ((FourFloats *)(to + m * step))[k] = ((const FourFloats *)&x[k])[m];
-        }
-    }
-#endif
-}
-
 #if LANES == 8
 KERNEL Wides wides_four_rows(const Rows *i, int k) {
     const __m512 a = _mm512_castps128_ps512(_mm_load_ps(row_of(i, k)));
@@ -229,22 +209,78 @@ KERNEL Wides distance2(const int dimension, const int sheared, const Sieve *siev
     return r2;
 }
 
+#if LANES == 8
+// The lanes p to p + 7 of two vectors by turns, and likewise in pairs of lanes.
+#define BY_TURNS(a, b, p)                                                                          \
+    __builtin_shufflevector(a, b, p, WIDE + p, p + 1, WIDE + p + 1, p + 2, WIDE + p + 2, p + 3,    \
+                            WIDE + p + 3, p + 4, WIDE + p + 4, p + 5, WIDE + p + 5, p + 6,         \
+                            WIDE + p + 6, p + 7, WIDE + p + 7)
+#define PAIRS_BY_TURNS(a, b, p)                                                                    \
+    __builtin_shufflevector(a, b, p, p + 1, WIDE + p, WIDE + p + 1, p + 2, p + 3, WIDE + p + 2,    \
+                            WIDE + p + 3, p + 4, p + 5, WIDE + p + 4, WIDE + p + 5, p + 6, p + 7,  \
+                            WIDE + p + 6, WIDE + p + 7)
+#define FOURS_BY_TURNS(a, b, p)                                                                    \
+    __builtin_shufflevector(a, b, p, p + 1, p + 2, p + 3, WIDE + p, WIDE + p + 1, WIDE + p + 2,    \
+                            WIDE + p + 3, p + 4, p + 5, p + 6, p + 7, WIDE + p + 4, WIDE + p + 5,  \
+                            WIDE + p + 6, WIDE + p + 7)
+
+// Four columns into rows of four, one after the other.
+KERNEL void wides_rows(const Wides column[4], Wides row[4]) {
+    const Wides low01 = BY_TURNS(column[0], column[1], 0);
+    const Wides high01 = BY_TURNS(column[0], column[1], 8);
+    const Wides low23 = BY_TURNS(column[2], column[3], 0);
+    const Wides high23 = BY_TURNS(column[2], column[3], 8);
+    row[0] = PAIRS_BY_TURNS(low01, low23, 0);
+    row[1] = PAIRS_BY_TURNS(low01, low23, 8);
+    row[2] = PAIRS_BY_TURNS(high01, high23, 0);
+    row[3] = PAIRS_BY_TURNS(high01, high23, 8);
+}
+
+KERNEL void sketch_store_2d(float *to, const Wides column[4]) {
+    wides_rows(column, (Wides *)to);
+}
+
+KERNEL void sketch_store_3d(float *to, const Wides now[4], const Wides then[4]) {
+    Wides row[4], row_then[4];
+    wides_rows(now, row);
+    wides_rows(then, row_then);
+    for (int k = 0; k < 4; k++) {
+        ((Wides *)to)[2 * k] = FOURS_BY_TURNS(row[k], row_then[k], 0);
+        ((Wides *)to)[2 * k + 1] = FOURS_BY_TURNS(row[k], row_then[k], 8);
+    }
+}
+#else
+// Writes four columns as rows of four, which begin `step` apart.
+KERNEL void wides_store_rows(float *to, size_t step, const Wides column[4]) {
+    Wides row[4];
+    wides_turn(column, row);
+    for (size_t m = 0; m < WIDE / 4; m++) {
+        for (size_t k = 0; k < 4; k++) {
+            *(FourFloats *)(to + (4 * m + k) * step) = ((const FourFloats *)&row[k])[m];
+        }
+    }
+}
+
+KERNEL void sketch_store_2d(float *to, const Wides column[4]) {
+    wides_store_rows(to, ROW_2D, column);
+}
+
+KERNEL void sketch_store_3d(float *to, const Wides now[4], const Wides then[4]) {
+    wides_store_rows(to, ROW_3D, now);
+    wides_store_rows(to + 4, ROW_3D, then);
+}
+#endif
+
 // The sketches of WIDE particles from `slot` on, a multiple of WIDE.
 KERNEL void sketch_put(const int dimension, const Engine *engine, uint32_t slot, const Wides now[3],
                        const Wides then[3]) {
     const Wides zero = {0};
-    Wides row[4], row_then[4];
     float *to = engine->sketch + (size_t)slot * (dimension == 2 ? ROW_2D : ROW_3D);
-    if (dimension == 2) {
-        wides_turn((const Wides[4]){now[0], now[1], then[0], then[1]}, row);
-        wides_store_blocks(to, 4 * ROW_2D, row);
-        return;
-    }
-    wides_turn((const Wides[4]){now[0], now[1], now[2], zero}, row);
-    wides_turn((const Wides[4]){then[0], then[1], then[2], zero}, row_then);
-    wides_store_blocks(to, 4 * ROW_3D, (const Wides[4]){row[0], row_then[0], row[1], row_then[1]});
-    wides_store_blocks(to + 2 * ROW_3D, 4 * ROW_3D,
-                       (const Wides[4]){row[2], row_then[2], row[3], row_then[3]});
+    if (dimension == 2)
+        sketch_store_2d(to, (const Wides[4]){now[0], now[1], then[0], then[1]});
+    else
+        sketch_store_3d(to, (const Wides[4]){now[0], now[1], now[2], zero},
+                        (const Wides[4]){then[0], then[1], then[2], zero});
 }
 
 // Of one particle at a place with a velocity. Whole rows are stored: the loads of rows that follow
