@@ -28,6 +28,12 @@ typedef struct Event {
     uint32_t next; // in its bucket
 } Event;
 
+// Some neighbours of a particle, in one line of the cache.
+typedef struct Neighbours {
+    uint32_t row[HALF_BLOCK];   // where their sketches begin
+    float contact2[HALF_BLOCK]; // squares of the contact distances at scale 1
+} Neighbours;
+
 // Pairs nearer than contact + skin when the list was made, seen both ways: a flat half list for
 // the prediction at the start of a window, and all neighbours of each particle for predictions
 // after a collision. For short windows the half list is pruned, every now and then, to pairs
@@ -57,10 +63,9 @@ typedef struct NeighbourList {
     uint32_t *pruned_first, *pruned_second; // [pairs]
     float *pruned_contact2;                 // [pairs]
 
-    uint32_t *start; // [slots + 1], multiples of HALF_BLOCK; the one after the last is of nobodies
-    size_t neighbour_capacity;
-    uint32_t *neighbour; // [start[slots]] where their sketches begin
-    float *contact2;     // [start[slots]]
+    uint32_t *start; // [slots + 1] in multiples of HALF_BLOCK; after the last come nobodies
+    size_t block_capacity;
+    Neighbours *blocks; // [start[slots] / HALF_BLOCK + 1]
 } NeighbourList;
 
 // Of the particles, one array for each axis.

@@ -356,6 +356,11 @@ KERNEL void take_back(const int dimension, Engine *engine, const Outcome *outcom
     event_link(engine, outcome->number);
 }
 
+// Of the neighbour with this number; steps of whole blocks always find 0.
+KERNEL uint32_t place_in_block(uint32_t n) {
+    return (int)HALF < (int)HALF_BLOCK ? n % HALF_BLOCK : 0;
+}
+
 // Whom may the partners meet in the rest of the window? The neighbours of both are tested at once,
 // those of one in each half of a register.
 KERNEL void look_round(const int dimension, const int flight, const Engine *engine,
@@ -370,13 +375,16 @@ KERNEL void look_round(const int dimension, const int flight, const Engine *engi
     const uint32_t end[2] = {list->start[slots[0] + 1], list->start[slots[1] + 1]};
     uint32_t blocks = 0;
     for (; at[0] < end[0] || at[1] < end[1]; at[0] += HALF, at[1] += HALF) {
-        uint32_t from[2];
-        for (int b = 0; b < 2; b++) from[b] = at[b] < end[b] ? at[b] : none;
-        const Wides contact2 =
-            wides_load_halves(list->contact2 + from[0], list->contact2 + from[1]);
-        const Rows j = {engine->sketch, {list->neighbour + from[0], list->neighbour + from[1]}, 1};
-        outcome->may_meet[blocks++] =
-            may_meet(dimension, flight == SHEARED, sieve, &i, &j, contact2, &gone);
+        const uint32_t *rows[2];
+        const float *contact2[2];
+        for (int p = 0; p < 2; p++) {
+            const uint32_t n = at[p] < end[p] ? at[p] : none;
+            rows[p] = list->blocks[n / HALF_BLOCK].row + place_in_block(n);
+            contact2[p] = list->blocks[n / HALF_BLOCK].contact2 + place_in_block(n);
+        }
+        const Rows j = {engine->sketch, {rows[0], rows[1]}, 1};
+        outcome->may_meet[blocks++] = may_meet(dimension, flight == SHEARED, sieve, &i, &j,
+                                               wides_load_halves(contact2[0], contact2[1]), &gone);
     }
     outcome->blocks = blocks;
 }
@@ -398,8 +406,8 @@ KERNEL int follow(const int dimension, const int flight, Engine *engine, Growth 
         for (unsigned bits = outcome->may_meet[block]; bits; bits &= bits - 1) {
             const int k = __builtin_ctz(bits);
             const uint32_t i = partner(outcome, k / HALF);
-            const uint32_t at = list->start[i] + block * HALF + (uint32_t)k % HALF;
-            const uint32_t j = list->neighbour[at] >> shift;
+            const uint32_t n = list->start[i] + block * HALF + (uint32_t)k % HALF;
+            const uint32_t j = list->blocks[n / HALF_BLOCK].row[n % HALF_BLOCK] >> shift;
             const int disturbed = stands && takes_part(next, j);
             if (disturbed) take_back(dimension, engine, next);
             const double time =

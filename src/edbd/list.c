@@ -192,12 +192,13 @@ static Status grow_pairs(NeighbourList *list, size_t pairs) {
     return OK;
 }
 
-static Status grow_neighbours(NeighbourList *list, size_t neighbours) {
-    if (neighbours <= list->neighbour_capacity) return OK;
-    const size_t capacity = neighbours + neighbours / 8 + 4 * BLOCK;
-    TRY(grow_numbers(&list->neighbour, 0, capacity));
-    TRY(grow_floats(&list->contact2, 0, capacity));
-    list->neighbour_capacity = capacity;
+static Status grow_blocks(NeighbourList *list, size_t blocks) {
+    if (blocks <= list->block_capacity) return OK;
+    const size_t capacity = blocks + blocks / 8 + BLOCK;
+    memory_free(list->blocks);
+    list->block_capacity = 0;
+    TRY(NEW_ARRAY(list->blocks, capacity));
+    list->block_capacity = capacity;
     return OK;
 }
 
@@ -265,52 +266,55 @@ static Status list_pairs(Engine *engine, const Grid *grid) {
     return OK;
 }
 
-// Where the neighbours of each particle begin, in whole half blocks, and after them one of nobody.
-static Status start_neighbours(Engine *engine, uint32_t *degree) {
+// Where the neighbours of each particle begin, in whole blocks. `before` counts those that come
+// before it, and becomes: where these begin, behind those that come after it.
+static Status start_neighbours(Engine *engine, uint32_t *before) {
     NeighbourList *list = &engine->list;
     const uint32_t shift = engine->row == ROW_2D ? 2 : 3;
-    for (size_t slot = 0; slot < engine->count; slot++) {
-        degree[slot] = list->pair_start[slot + 1] - list->pair_start[slot];
-    }
-    for (size_t p = 0; p < list->pair_start[engine->count]; p++) degree[list->second[p] >> shift]++;
+    memset(before, 0, engine->count * sizeof *before);
+    for (size_t p = 0; p < list->pair_start[engine->count]; p++) before[list->second[p] >> shift]++;
     uint32_t end = 0;
     for (size_t slot = 0; slot < engine->count; slot++) {
+        const uint32_t after = list->pair_start[slot + 1] - list->pair_start[slot];
+        const uint32_t all = before[slot] + after;
         list->start[slot] = end;
-        end += (degree[slot] + HALF_BLOCK - 1) / HALF_BLOCK * HALF_BLOCK;
-        degree[slot] = list->start[slot];
+        before[slot] = end + after;
+        end += (all + HALF_BLOCK - 1) / HALF_BLOCK * HALF_BLOCK;
     }
-    list->start[engine->count] = degree[engine->count] = end;
-    return grow_neighbours(list, end + HALF_BLOCK);
+    list->start[engine->count] = end;
+    return grow_blocks(list, end / HALF_BLOCK + 1);
 }
 
-static void pad_neighbours(Engine *engine, const uint32_t *end) {
+static void clear_blocks(Engine *engine) {
     NeighbourList *list = &engine->list;
-    for (size_t slot = 0; slot <= engine->count; slot++) {
-        const uint32_t last = slot < engine->count ? list->start[slot + 1] : end[slot] + HALF_BLOCK;
-        for (uint32_t n = end[slot]; n < last; n++) {
-            list->neighbour[n] = (uint32_t)(engine->count * engine->row);
-            list->contact2[n] = NEVER;
-        }
+    Neighbours none;
+    for (int k = 0; k < HALF_BLOCK; k++) {
+        none.row[k] = (uint32_t)(engine->count * engine->row);
+        none.contact2[k] = NEVER;
     }
+    for (size_t b = 0; b <= list->start[engine->count] / HALF_BLOCK; b++) list->blocks[b] = none;
 }
 
-// The half list, seen from both partners of each pair.
+static void put_neighbour(const NeighbourList *list, uint32_t n, uint32_t row, float contact2) {
+    Neighbours *block = &list->blocks[n / HALF_BLOCK];
+    block->row[n % HALF_BLOCK] = row;
+    block->contact2[n % HALF_BLOCK] = contact2;
+}
+
+// The half list, seen from both partners of each pair: those after a particle, then those before.
 static Status list_neighbours(Engine *engine) {
     NeighbourList *list = &engine->list;
     const uint32_t shift = engine->row == ROW_2D ? 2 : 3;
-    uint32_t *end = engine->cell_of; // no longer needed: where each particle's list ends
-    TRY(start_neighbours(engine, end));
-    for (size_t slot = 0; slot < engine->count; slot++) {
-        uint32_t one = end[slot];
-        for (size_t p = list->pair_start[slot]; p < list->pair_start[slot + 1]; p++) {
-            const uint32_t second = list->second[p], other = end[second >> shift]++;
-            list->neighbour[one] = second;
-            list->neighbour[other] = (uint32_t)slot << shift;
-            list->contact2[one++] = list->contact2[other] = list->pair_contact2[p];
-        }
-        end[slot] = one;
+    const size_t pairs = list->pair_start[engine->count];
+    uint32_t *before = engine->cell_of; // no longer needed
+    TRY(start_neighbours(engine, before));
+    clear_blocks(engine);
+    for (size_t p = 0; p < pairs; p++) {
+        const uint32_t first = list->first[p], second = list->second[p], slot = first >> shift;
+        const uint32_t after = list->start[slot] + (uint32_t)p - list->pair_start[slot];
+        put_neighbour(list, after, second, list->pair_contact2[p]);
+        put_neighbour(list, before[second >> shift]++, first, list->pair_contact2[p]);
     }
-    pad_neighbours(engine, end);
     return OK;
 }
 
@@ -440,8 +444,7 @@ void list_free(Engine *engine) {
     memory_free(list->pruned_contact2);
     memory_free(list->start);
     memory_free(list->pair_start);
-    memory_free(list->neighbour);
-    memory_free(list->contact2);
+    memory_free(list->blocks);
     memory_free(engine->cell_of);
     memory_free(engine->cell_start);
 }
