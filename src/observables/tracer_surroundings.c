@@ -5,6 +5,7 @@
 // length of the wake. Only while the force is on, and after the tracer has become steady.
 #include "base/constants.h"
 #include "base/memory.h"
+#include "numerics/vector.h"
 #include "observables/looks.h"
 #include "observables/put.h"
 #include "observables/tracer_frames.h"
@@ -151,9 +152,23 @@ static void add(Rings *rings, double x, double rho, double order) {
     rings->order[i * rings->across + j] += order;
 }
 
-static void add_touching(Rings *rings, double contact, double x, double rho) {
-    const double r = sqrt(x * x + rho * rho);
-    if (r < contact + TOUCH && fabs(x) > CONE * r) rings->touching[x < 0]++;
+// From the tracer to the nearest point of a sphere's or a rod's axis, which `r` leads to the middle
+// of.
+static void nearest_of_axis(const State *state, size_t i, const double r[3], double nearest[3]) {
+    const double half = state->system.species[state->species_of[i]].length / 2;
+    double along = 0;
+    for (int a = 0; a < 3 && half > 0; a++) along -= r[a] * state->orientation[a][i];
+    along = fmin(fmax(along, -half), half);
+    for (int a = 0; a < 3; a++)
+        nearest[a] = half > 0 ? r[a] + along * state->orientation[a][i] : r[a];
+}
+
+static void see_touching(Rings *rings, const State *state, size_t i, const double r[3]) {
+    const double contact = (state->diameter[i] + state->diameter[rings->particle]) / 2;
+    double nearest[3];
+    nearest_of_axis(state, i, r, nearest);
+    const double gap = sqrt(vector_dot(nearest, nearest)), x = nearest[rings->axis];
+    if (gap < contact + TOUCH && fabs(x) > CONE * gap) rings->touching[x < 0]++;
 }
 
 static void see_particle(Rings *rings, const State *state, size_t i) {
@@ -166,7 +181,7 @@ static void see_particle(Rings *rings, const State *state, size_t i) {
     const double x = r[rings->axis], rho = sqrt(rho2);
     const double u = state->oriented ? state->orientation[rings->axis][i] : 0;
     add(rings, x, rho, (3 * u * u - 1) / 2);
-    add_touching(rings, (state->diameter[i] + state->diameter[rings->particle]) / 2, x, rho);
+    see_touching(rings, state, i, r);
 }
 
 static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
@@ -230,18 +245,36 @@ static Status put_maps(const Rings *rings, const State *state, double *values, R
                                values);
 }
 
+// Where the middle of a sphere or of a rod that points anywhere is if it touches the tracer on one
+// side: a share of the shell round the volume that it excludes to it.
+static double touching_volume(const Species *species, double tracer) {
+    const double contact = (tracer + species->diameter) / 2, outer = contact + TOUCH;
+    const double caps = 4 * PI / 3 * (outer * outer * outer - contact * contact * contact);
+    const double sides = PI * species->length * (outer * outer - contact * contact);
+    return (caps + sides) * (1 - CONE) / 2;
+}
+
+static double evenly_touching(const Rings *rings, const State *state) {
+    const uint8_t own = state->species_of[rings->particle];
+    size_t counts[SPECIES_MOST];
+    double sum = 0;
+    system_counts(&state->system, counts);
+    for (size_t s = 0; s < state->system.species_count; s++) {
+        if (s == own) continue;
+        sum += (double)counts[s] *
+               touching_volume(&state->system.species[s], state->diameter[rings->particle]);
+    }
+    return sum * (double)rings->looks / box_volume(&state->box);
+}
+
 static Status put_contact(const Rings *rings, const State *state, Results *results,
                           size_t replica) {
-    const Species *tracer = &state->system.species[state->species_of[rings->particle]];
-    const double contact = (tracer->diameter + state->system.species[0].diameter) / 2;
-    const double outer = contact + TOUCH;
-    const double volume =
-        2 * PI / 3 * (1 - CONE) * (outer * outer * outer - contact * contact * contact);
-    const double even = volume * evenly(rings, state);
+    const double even = evenly_touching(rings, state);
     TRY(observer_put_scalar(
         &rings->observer, "contact_density_front", "",
-        "Density of bath particles over its mean within 0.05 d of contact and 30 "
-        "degrees of the force, in front of the tracer.",
+        "Bath particles within 0.05 d of contact whose nearest point is within 30 degrees of the "
+        "force, "
+        "in front of the tracer, over how many there were if they were spread evenly.",
         results, replica, rings->touching[0] / even));
     return observer_put_scalar(&rings->observer, "contact_density_behind", "",
                                "The same behind it.", results, replica, rings->touching[1] / even);
@@ -269,13 +302,22 @@ static Status put_wake(const Rings *rings, const State *state, Results *results,
                                results, replica, missing);
 }
 
+// Discs have another nearest point.
+static bool has_contact(const System *system) {
+    for (size_t s = 0; s < system->species_count; s++) {
+        if (system->species[s].shape == SHAPE_PLATELET) return false;
+    }
+    return true;
+}
+
 static Status write(const Observer *observer, const State *state, Results *results,
                     size_t replica) {
     const Rings *rings = (const Rings *)observer;
     double *values = NULL;
     TRY(NEW_ARRAY(values, rings->along * rings->across + rings->along + rings->across));
     Status status = put_maps(rings, state, values, results, replica);
-    if (status == OK && !state->oriented) status = put_contact(rings, state, results, replica);
+    if (status == OK && has_contact(&state->system))
+        status = put_contact(rings, state, results, replica);
     if (status == OK) status = put_wake(rings, state, results, replica);
     memory_free(values);
     return status;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A tracer pulled through hard spheres, by Monte Carlo and by event-driven dynamics, against
 // velocities found by an independent event-driven program and against each other. Fixed seeds.
+#include "shapes/overlap.h"
 #include "simulate.h"
 
 #include <stdlib.h>
@@ -160,6 +161,73 @@ START_TEST(a_strong_force_leaves_a_wake) {
 }
 END_TEST
 
+// All rods anew; one that would overlap the tracer in the middle is put half a box away.
+static void place_rods(State *state, int64_t look) {
+    const size_t tracer = state->count - 1;
+    for (size_t i = 0; i < tracer; i++) {
+        Rng rng = rng_open((RngKey){.seed = 3}, STREAM_PACKING, (uint64_t)look, i);
+        double axis[3], r[3], square = 0;
+        for (int a = 0; a < 3; a++) {
+            state->position[a][i] = rng_uniform(&rng) * state->box.edge[a];
+            r[a] = state->position[a][i] - state->position[a][tracer];
+            axis[a] = rng_normal(&rng);
+            square += axis[a] * axis[a];
+        }
+        for (int a = 0; a < 3; a++) state->orientation[a][i] = axis[a] /= sqrt(square);
+        box_nearest_image(&state->box, r);
+        if (!spherocylinder_overlap(1.4, axis, 0, 1, axis, 3, r)) continue;
+        for (int a = 0; a < 3; a++) {
+            const double there = state->position[a][tracer] + state->box.edge[a] / 2;
+            state->position[a][i] = fmod(there, state->box.edge[a]);
+        }
+    }
+}
+
+// Rods that are anywhere and point anywhere, but where they would overlap the tracer: they touch it
+// as often as those that are spread evenly, which is what 1 means.
+START_TEST(scattered_rods_touch_as_often_as_evenly_spread_ones) {
+    enum { RODS = 100, LOOKS = 60000 };
+    System system = {
+        .dimension = 3, .particles = RODS + 1, .number_density = 0.1, .species_count = 2};
+    system.species[0] = (Species){.name = "bath",
+                                  .shape = SHAPE_SPHEROCYLINDER,
+                                  .diameter = 1,
+                                  .length = 3,
+                                  .fraction = RODS / (RODS + 1.0)};
+    system.species[1] = (Species){
+        .name = "tracer", .shape = SHAPE_SPHERE, .diameter = 1.4, .fraction = 1 / (RODS + 1.0)};
+    State *state = NULL;
+    ck_assert_int_eq(state_create(&state, &system), OK);
+    for (size_t i = 0; i <= RODS; i++) state->diameter[i] = i < RODS ? 1 : 1.4;
+    const Drive drive = {.pull = {.species = "tracer", .peclet = 1}};
+    const Clock clock = {.tick = 1,
+                         .ticks = LOOKS,
+                         .ticks_per_step = 1,
+                         .unit = "d^2/D0",
+                         .stage = "measured",
+                         .drive = &drive};
+    const ObservableKind *kind = &observable_tracer_surroundings;
+    Settings settings = settings_of(&kind->options);
+    set_number(&settings, &kind->options, "begin", 0);
+    Observer *observer = NULL;
+    ck_assert_int_eq(kind->create(&observer, &settings, state, &clock), OK);
+    for (int64_t look = 0; look < LOOKS; look++) {
+        place_rods(state, look);
+        ck_assert_int_eq(kind->see(observer, look, state, &(Tally){0}), OK);
+    }
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(kind->write(observer, state, results, 0), OK);
+    // Some 830 on either side in all looks.
+    const double error = 1 / sqrt(830);
+    ck_assert_double_eq_tol(measured(results, "contact_density_front").value, 1, 4 * error);
+    ck_assert_double_eq_tol(measured(results, "contact_density_behind").value, 1, 4 * error);
+    kind->free(observer);
+    results_free(results);
+    state_free(state);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("a pulled tracer");
     ADD_CASE(suite, friction_is_that_of_event_driven_dynamics, 2);
@@ -167,5 +235,6 @@ int main(void) {
     ADD_CASE(suite, both_methods_feel_the_same_friction, 1);
     ADD_CASE(suite, nothing_is_in_front_without_a_force, 1);
     ADD_CASE(suite, a_strong_force_leaves_a_wake, 1);
+    ADD_CASE(suite, scattered_rods_touch_as_often_as_evenly_spread_ones, 1);
     return run_suite(suite) ? EXIT_FAILURE : EXIT_SUCCESS;
 }
