@@ -1,5 +1,5 @@
 # Density of the bath round the tracer among spheres and among rods, and the orientation of the rods;
-# the force points to the right. Half of the picture is the mirror image of the other. White: nobody.
+# at Pe = 500 the force points to the right. Half of the picture is the mirror image of the other. White: nobody.
 load "style.gp"
 set datafile missing   # rings without anybody stay in the grid
 set terminal svg size 620,1000 enhanced font "sans-serif,14" background "white"
@@ -19,12 +19,12 @@ set cbrange [0:3]
 set palette defined (0 '#440154', 1 '#3b528b', 2 '#21918c', 3 '#5ec962', 4 '#fde725')
 set cblabel "density over its mean"
 set title "spheres"
-plot "HS/figures/pulled_tracer_surroundings.csv" using 1:2:3 every ::1 with image pixels, "" using 1:(-$2):3 every ::1 with image pixels
+plot "HS_500/figures/pulled_tracer_surroundings.csv" using 1:2:3 every ::1 with image pixels, "" using 1:(-$2):3 every ::1 with image pixels
 set title "rods of 5 d"
-plot "HR/figures/pulled_tracer_surroundings.csv" using 1:2:3 every ::1 with image pixels, "" using 1:(-$2):3 every ::1 with image pixels
+plot "HR_500/figures/pulled_tracer_surroundings.csv" using 1:2:3 every ::1 with image pixels, "" using 1:(-$2):3 every ::1 with image pixels
 set title "orientation of the rods"
 set cblabel "E_2"
 set cbrange [-0.5:0.5]
 set palette defined (-1 '#0072B2', 0 '#ffffff', 1 '#D55E00')
-plot "HR/figures/pulled_tracer_orientations.csv" using 1:2:3 every ::1 with image pixels, "" using 1:(-$2):3 every ::1 with image pixels
+plot "HR_500/figures/pulled_tracer_orientations.csv" using 1:2:3 every ::1 with image pixels, "" using 1:(-$2):3 every ::1 with image pixels
 unset multiplot
