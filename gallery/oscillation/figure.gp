@@ -24,12 +24,15 @@ set xlabel "amplitude of the strain"
 set ylabel "moduli in kT/d^2"
 set key bottom left
 glass(measure, value) = (strcol(2) eq "glass" ? of(measure, 4, value) : NaN)
+slow(measure, value) = (strcol(2) eq "slow" ? of(measure, 4, value) : NaN)
 stats "measured.csv" using (of("glass-0.02", 1, of("storage", 4, $5))) name "G" nooutput
 stats "measured.csv" using (of("schematic-0.02", 1, of("storage", 4, $5))) name "M" nooutput
 model(name) = "< grep ',schematic,.*,".name.",' measured.csv"
-plot "measured.csv" using 3:(glass("storage", $5)):6 with yerrorbars linetype 1 title "G', glass", \
+plot "measured.csv" using 3:(glass("storage", $5)):6 with yerrorbars linetype 1 title "G', ω = 1", \
      "" using 3:(glass("loss", $5)):6 with yerrorbars linetype 2 title "G''", \
-     "" using 3:(glass("third", $5)):6 with yerrorbars linetype 3 title "third harmonic over first", \
+     "" using 3:(slow("storage", $5)):6 with yerrorbars linetype 1 pointtype 6 title "G', ω = 0.2", \
+     "" using 3:(slow("loss", $5)):6 with yerrorbars linetype 2 pointtype 4 title "G''", \
+     "" using 3:($6 < $5 ? glass("third", $5) : NaN):6 with yerrorbars linetype 3 title "third harmonic over first", \
      model("storage") using 3:($5*G_mean/M_mean) with lines linetype 1 title "schematic model, scaled to G'(0.02)", \
      model("loss") using 3:($5*G_mean/M_mean) with lines linetype 2 notitle, \
      model("third") using 3:5 with lines linetype 3 notitle
