@@ -44,17 +44,33 @@ static void print_species(const System *system) {
     }
 }
 
-// What the method says of itself, line by line.
+// A line each, under what they are of; frees them.
+static Status print_lines(Text *lines) {
+    for (const char *line = text_words(lines); *line; line += strcspn(line, "\n") + 1) {
+        printf("          %-16s %.*s\n", "", (int)strcspn(line, "\n"), line);
+    }
+    const Status status = text_status(lines);
+    text_free(lines);
+    return status;
+}
+
+// What the method says of itself.
 static Status print_method(const Plan *plan, const Stage *stage) {
     const Dynamics *dynamics = &stage->dynamics;
     if (!dynamics->kind->describe) return OK;
     Text lines = {0};
     dynamics->kind->describe(&dynamics->settings, &plan->system, &stage->drive, stage_time(stage),
                              &lines);
-    for (const char *line = text_words(&lines); *line; line += strcspn(line, "\n") + 1) {
-        printf("          %-16s %.*s\n", "", (int)strcspn(line, "\n"), line);
-    }
-    const Status status = text_status(&lines);
+    return print_lines(&lines);
+}
+
+static Status print_observation(const Observation *observation, const System *system,
+                                const char *title) {
+    const ObservableKind *kind = observation->kind;
+    printf("          %-16s %s\n", title, kind->name);
+    Text lines = {0};
+    Status status = kind->describe ? kind->describe(&observation->settings, system, &lines) : OK;
+    if (status == OK) return print_lines(&lines);
     text_free(&lines);
     return status;
 }
@@ -96,8 +112,7 @@ static Status print_stage(const Plan *plan, size_t index) {
     TRY(print_method(plan, stage));
     if (stage->observation_count == 0) printf("          %-16s nothing\n", "  observes");
     for (size_t k = 0; k < stage->observation_count; k++) {
-        printf("          %-16s %s\n", k == 0 ? "  observes" : "",
-               stage->observations[k].kind->name);
+        TRY(print_observation(&stage->observations[k], &plan->system, k == 0 ? "  observes" : ""));
     }
     return OK;
 }

@@ -12,6 +12,7 @@
 #include "observables/put.h"
 #include "observables/wave_vectors.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -40,7 +41,8 @@ static const Option rows[] = {
      .least = 0,
      .most = 100000,
      .unit = "",
-     .about = "Most wave vectors in a shell, q and -q counted once; 0 takes all."},
+     .about = "Most wave vectors in a shell, q and -q counted once; 0 takes all, as one "
+              "must in a glass, where no time averages what was left out."},
     FRAME_OPTION(CollectiveSettings, frame),
     LAG_OPTIONS_OF(CollectiveSettings, lags, 10, 16), // a look costs some intervals of the engine
     WAITING_OPTIONS(CollectiveSettings, lags),
@@ -347,6 +349,26 @@ static size_t memory(const Settings *settings_, const System *system, const Cloc
            (frame + (groups_of(&lags) + 2 * lags_rows(&lags)) * sums) * sizeof(double);
 }
 
+// An even choice is as good as all where the modes of a run forget each other; in a glass they do
+// not, and each vector counts once.
+static Status describe(const Settings *settings_, const System *system, Text *lines) {
+    const CollectiveSettings *settings = settings_in(settings_);
+    const Box box = system_box(system);
+    Shell shells[OPTION_LIST_SIZE];
+    const size_t count = shells_of(settings, system, shells);
+    WaveVectors all;
+    const Status status = wave_vectors_make(&all, &box, shells, count, 0);
+    double most = 0;
+    for (size_t k = 0; k < count && status == OK; k++) most = fmax(most, all.members[k]);
+    if (settings->vectors > 0 && most > (double)settings->vectors)
+        text_add(lines,
+                 "%lld of up to %.0f wave vectors in a shell: enough for a fluid; in a glass each "
+                 "counts once, take all (shell.vectors: 0)\n",
+                 (long long)settings->vectors, most);
+    wave_vectors_clear(&all);
+    return status;
+}
+
 const ObservableKind observable_collective_scattering = {
     .name = "collective_scattering",
     .about = "Partial collective intermediate scattering functions at logarithmic lags: how fast "
@@ -360,4 +382,5 @@ const ObservableKind observable_collective_scattering = {
     .write = write,
     .free = discard,
     .memory = memory,
+    .describe = describe,
 };

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/archive.h"
+#include "base/text.h"
 #include "propagator/propagator.h"
 #include "results/results.h"
 #include "state/state.h"
@@ -51,6 +52,8 @@ struct ObservableKind {
     double (*relative_error)(const Observer *observer);
     void (*free)(Observer *observer);
     size_t (*memory)(const Settings *settings, const System *system, const Clock *clock); // bytes
+    // What `perrin check` says of it, a line each. May be NULL.
+    Status (*describe)(const Settings *settings, const System *system, Text *lines);
 };
 
 // Becomes: extern const ObservableKind observable_mean_squared_displacement; ...
