@@ -364,6 +364,24 @@ START_TEST(drift_is_not_seen_from_the_centre_of_mass) {
 }
 END_TEST
 
+// What `perrin check` says of a shell with more vectors than are taken, and nothing of one without.
+START_TEST(what_a_shell_leaves_out_is_said) {
+    const ObservableKind *kind = &observable_collective_scattering;
+    const System system = system_of(2, 1000, 0.7, 2);
+    Settings settings = settings_of(&kind->options);
+    set_list(&settings, kind, "wave_numbers", (OptionReals){2, {0.5, 10}});
+    Text lines = {0};
+    ck_assert_int_eq(kind->describe(&settings, &system, &lines), OK);
+    ck_assert_ptr_nonnull(strstr(text_words(&lines), "30 of up to "));
+    text_free(&lines);
+    lines = (Text){0};
+    set_number(&settings, &kind->options, "shell.vectors", 0);
+    ck_assert_int_eq(kind->describe(&settings, &system, &lines), OK);
+    ck_assert_str_eq(text_words(&lines), "");
+    text_free(&lines);
+}
+END_TEST
+
 static double length_of(const double *from_to[2][3], size_t i, int dimension) {
     double square = 0;
     for (int a = 0; a < dimension; a++) square += pow(from_to[1][a][i] - from_to[0][a][i], 2);
@@ -582,6 +600,7 @@ int main(void) {
     tcase_add_loop_test(c, collective_scattering_agrees_with_its_slow_twin, 0, 4);
     tcase_add_loop_test(c, collective_scattering_begins_at_the_structure_factor, 0, 2);
     tcase_add_loop_test(c, drift_is_not_seen_from_the_centre_of_mass, 0, 8);
+    tcase_add_test(c, what_a_shell_leaves_out_is_said);
     tcase_add_loop_test(c, moments_agree_with_their_slow_twin, 0, 4);
     tcase_add_loop_test(c, overlap_agrees_with_its_slow_twin, 0, 4);
     tcase_add_loop_test(c, van_hove_function_agrees_with_its_slow_twin, 0, 4);
