@@ -47,10 +47,7 @@ static Status put_contact_value(Results *results, const ResultSeries *series, si
     for (char *c = quantity; *c; c++) {
         if (*c == '-') *c = '_';
     }
-    return results_put_scalar(results, series->stage, quantity, "",
-                              "Pair distribution at contact, extrapolated by a cubic from where "
-                              "it has fallen to 0.6 of its first value.",
-                              replica, value);
+    return results_put_scalar(results, series->stage, quantity, "", NULL, replica, value);
 }
 
 // One replica: extrapolates each pair and adds up the pressure.
@@ -66,9 +63,7 @@ static Status derive_replica(Results *results, const ResultSeries *series,
         TRY(put_contact_value(results, series, pair, replica, contact));
         if (weight > 0) compressibility += weight * contact; // a species may have one particle
     }
-    return results_put_scalar(results, series->stage, "compressibility_factor_contact", "",
-                              "P V/(N kT) from the contact values of the pair distributions: no "
-                              "collision enters.",
+    return results_put_scalar(results, series->stage, "compressibility_factor_contact", "", NULL,
                               replica, compressibility);
 }
 
@@ -97,12 +92,9 @@ Status derive_compression(Results *results, const ResultSeries *series, const Sy
         double excess = NAN;
         TRY(fit_value_at_edge(series->values + replica * series->size, end, CUBIC, &excess));
         TRY(results_put_scalar(results, series->stage, "compressibility_factor_compression", "",
-                               "P V/(N kT) from the pairs that meet in a virtual compression, "
-                               "extrapolated to none by a cubic.",
-                               replica, 1 + excess));
-        TRY(results_put_scalar(results, series->stage, "pressure_compression", "kT/d^3",
-                               "From the pairs that meet in a virtual compression.", replica,
-                               system_number_density(system) * (1 + excess)));
+                               NULL, replica, 1 + excess));
+        TRY(results_put_scalar(results, series->stage, "pressure_compression", "kT/d^3", NULL,
+                               replica, system_number_density(system) * (1 + excess)));
     }
     return OK;
 }
@@ -125,15 +117,11 @@ static Status put_tensor(Results *results, const ResultSeries *series, const Sys
     const char *stage = series->stage, *unit = series->unit;
     const double dimension = (double)system->dimension;
     if (!isnan(stress.xy))
-        TRY(results_put_scalar(
-            results, stage, "shear_stress_contact", unit,
-            "sigma_xy from the directions in which pairs touch: no collision enters.", replica,
-            stress.xy));
-    TRY(results_put_scalar(results, stage, "normal_stress_difference_contact", unit,
-                           "sigma_xx - sigma_yy from the directions in which pairs touch.", replica,
+        TRY(results_put_scalar(results, stage, "shear_stress_contact", unit, NULL, replica,
+                               stress.xy));
+    TRY(results_put_scalar(results, stage, "normal_stress_difference_contact", unit, NULL, replica,
                            stress.xx - stress.yy));
-    return results_put_scalar(results, stage, "pressure_contact", unit,
-                              "From the pairs that touch, kinetic part included.", replica,
+    return results_put_scalar(results, stage, "pressure_contact", unit, NULL, replica,
                               system_number_density(system) -
                                   (stress.xx + stress.yy + stress.zz) / dimension);
 }

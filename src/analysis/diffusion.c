@@ -47,17 +47,13 @@ static Status put_short(Results *results, const Displacement *of) {
     const size_t lag = fastest_lag(&of->curve);
     const double time = of->curve.times[lag];
     for (size_t replica = 0; replica < results->replicas; replica++) {
-        TRY(put(results, of, "short_time_diffusion", "D0",
-                "Largest <r^2>/(2 dim t), reached about one thermostat interval (Monte Carlo: at "
-                "once); the free coefficient for vanishing interval or step.",
-                replica, curve_of(&of->curve, replica)[lag] / (2 * of->dimensions * time)));
+        TRY(put(results, of, "short_time_diffusion", "D0", NULL, replica,
+                curve_of(&of->curve, replica)[lag] / (2 * of->dimensions * time)));
     }
     return OK;
 }
 
 static Status put_long(Results *results, const Displacement *of, const char *unit) {
-    static const char SETTLED[] =
-        "Slope of <r^2>/(2 dim) against t, from long_time_window to the last lag.";
     static const char FALLING[] =
         "Upper bound, for the slope is not seen to have stopped falling: that of <r^2>/(2 dim) "
         "against t, from long_time_window to the last lag.";
@@ -65,13 +61,10 @@ static Status put_long(Results *results, const Displacement *of, const char *uni
     bool settled = false;
     const size_t begin = curve_window(curve, &settled);
     for (size_t replica = 0; replica < results->replicas; replica++) {
-        TRY(put(results, of, "long_time_diffusion", unit, settled ? SETTLED : FALLING, replica,
+        TRY(put(results, of, "long_time_diffusion", unit, settled ? NULL : FALLING, replica,
                 curve_slope(curve, replica, begin, curve->lags) / (2 * of->dimensions)));
-        TRY(put(
-            results, of, "long_time_window", curve->series->axis[2].unit,
-            "Start of the fit: over as long before it in log t the slope is the same within two "
-            "standard errors; or else a quarter of the last lag.",
-            replica, curve->times[begin]));
+        TRY(put(results, of, "long_time_window", curve->series->axis[2].unit, NULL, replica,
+                curve->times[begin]));
     }
     return OK;
 }

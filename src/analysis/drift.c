@@ -21,11 +21,9 @@ static Status put_drift(Results *results, const ResultSeries *series, size_t fir
                         const char *name) {
     for (size_t r = 0; r < results->replicas; r++) {
         const double *values = series->values + r * series->size + first;
-        TRY(results_put_scalar(
-            results, series->stage, name, series->unit,
-            "Mean of the second half of the stage less that of the first: well "
-            "above its error, the stage is not stationary.",
-            r, mean_of(values, (blocks + 1) / 2, blocks) - mean_of(values, 0, blocks / 2)));
+        TRY(results_put_scalar(results, series->stage, name, series->unit, NULL, r,
+                               mean_of(values, (blocks + 1) / 2, blocks) -
+                                   mean_of(values, 0, blocks / 2)));
     }
     return OK;
 }

@@ -63,10 +63,8 @@ static Status judge_times(Judged *judged, const ResultSeries *times) {
              time, times->unit, lasts < TIMES_ENOUGH ? ", not the ten it should" : "");
     for (size_t r = 0; r < results->replicas; r++) {
         const double replica = times->values[r * times->size + element];
-        TRY(results_put_scalar(results, judged->stage, "relaxation_share", "",
-                               "Longest relaxation time over the length of the stage: below 0.1 it "
-                               "has forgotten where it began.",
-                               r, replica / judged->length));
+        TRY(results_put_scalar(results, judged->stage, "relaxation_share", "", NULL, r,
+                               replica / judged->length));
     }
     return OK;
 }

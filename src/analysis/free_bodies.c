@@ -103,8 +103,7 @@ static Status put_tensor(Results *results, const ResultSeries *shape, const Syst
                      named ? shape->axis[0].labels[l] : "");
             const double value = mean_over_bodies(&some, diffusion, row, 0);
             for (size_t r = 0; r < results->replicas; r++) {
-                TRY(results_put_scalar(results, shape->stage, name, "D0",
-                                       "Diffusion of a body alone, in its own frame.", r, value));
+                TRY(results_put_scalar(results, shape->stage, name, "D0", NULL, r, value));
             }
         }
     }

@@ -81,20 +81,13 @@ Status derive_friction(Results *results, const ResultSeries *given) {
     for (size_t replica = 0; replica < results->replicas; replica++) {
         double values[2 * BEGINS_MOST];
         fill(&source, (int64_t)replica, values);
-        TRY(results_put_scalar(
-            results, stage, "tracer_velocity", "D0/d",
-            "Mean velocity along the force, from a fifth of the shortest trajectory on.", replica,
-            values[MAIN_BEGIN]));
-        TRY(results_put_scalar(
-            results, stage, "effective_friction", "",
-            "gamma_eff/gamma_0 = D F/<v>, from a fifth of the shortest trajectory on; "
-            "without force D/D_long.",
-            replica, values[begins + MAIN_BEGIN]));
-        TRY(results_put_scalar(results, stage, "effective_friction_earlier", "",
-                               "The same from a tenth on: the window is steady if they agree.",
-                               replica, values[begins + MAIN_BEGIN - 1]));
-        TRY(results_put_scalar(results, stage, "effective_friction_later", "",
-                               "The same from two fifths on.", replica,
+        TRY(results_put_scalar(results, stage, "tracer_velocity", "D0/d", NULL, replica,
+                               values[MAIN_BEGIN]));
+        TRY(results_put_scalar(results, stage, "effective_friction", "", NULL, replica,
+                               values[begins + MAIN_BEGIN]));
+        TRY(results_put_scalar(results, stage, "effective_friction_earlier", "", NULL, replica,
+                               values[begins + MAIN_BEGIN - 1]));
+        TRY(results_put_scalar(results, stage, "effective_friction_later", "", NULL, replica,
                                values[begins + MAIN_BEGIN + 1]));
     }
     return OK;

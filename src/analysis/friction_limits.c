@@ -35,20 +35,17 @@ Status derive_friction_limits(Results *results, const ResultSeries *passage, con
     const double phi = system_packing_fraction(system), eta = phi * hard * hard * hard;
     const double contact = (equation_carnahan_starling(eta) - 1) / (4 * eta);
     const struct {
-        const char *quantity, *about;
+        const char *quantity;
         double value;
     } limits[] = {
-        {"friction_weak", "gamma_eff/gamma_0 of a dilute bath for vanishing force, 1 + 2 phi.",
-         1 + 2 * phi},
-        {"friction_strong", "The same for infinite force, 1 + phi.", 1 + phi},
-        {"friction_weak_contact",
-         "1 + 2 phi g with the pair distribution g at contact: for vanishing force.",
-         1 + 2 * eta * contact},
-        {"friction_strong_contact", "1 + phi g: for infinite force.", 1 + eta * contact},
+        {"friction_weak", 1 + 2 * phi},
+        {"friction_strong", 1 + phi},
+        {"friction_weak_contact", 1 + 2 * eta * contact},
+        {"friction_strong_contact", 1 + eta * contact},
     };
     for (size_t r = 0; r < results->replicas; r++) {
         for (size_t k = 0; k < sizeof limits / sizeof *limits; k++) {
-            TRY(results_put_scalar(results, stage, limits[k].quantity, "", limits[k].about, r,
+            TRY(results_put_scalar(results, stage, limits[k].quantity, "", NULL, r,
                                    limits[k].value));
         }
     }

@@ -97,11 +97,8 @@ static Status put_time(Results *results, Decay *decay, size_t label, const char 
     name_of(name, quantity, decay->series, label);
     Status status = relaxation_times(decay, times);
     for (size_t r = 0; status == OK && r < results->replicas; r++) {
-        status = results_put_scalar(
-            results, decay->series->stage, name, decay->series->axis[2].unit,
-            "From the slope of the logarithm where the correlation, less its plateau, is between "
-            "1/2 and 1/20; jackknife over replicas.",
-            r, times[r]);
+        status = results_put_scalar(results, decay->series->stage, name,
+                                    decay->series->axis[2].unit, NULL, r, times[r]);
     }
     memory_free(times);
     return status;
@@ -124,10 +121,7 @@ static Status put_plateau(Results *results, const ResultSeries *series, size_t l
     char name[2 * RESULT_NAME];
     name_of(name, "orientation_plateau", series, label);
     for (size_t r = 0; r < results->replicas; r++) {
-        TRY(results_put_scalar(results, series->stage, name, "",
-                               "Mean of <P2> over the last half of the lags: S^2 if it has relaxed "
-                               "by then, an upper bound if not.",
-                               r, tail(series, r, row)));
+        TRY(results_put_scalar(results, series->stage, name, "", NULL, r, tail(series, r, row)));
     }
     return OK;
 }

@@ -75,18 +75,13 @@ static Status put_overshoot(Results *results, const ResultSeries *series, size_t
                             Overshoot all, Overshoot without) {
     const size_t n = results->replicas;
     const char *stage = series->stage;
-    TRY(results_put_scalar(results, stage, "overshoot_strain", "",
-                           "Where the shear stress is highest: top of a parabola through the "
-                           "windows within 7 % of the highest.",
-                           replica, pseudo_value(n, all.strain, without.strain)));
-    TRY(results_put_scalar(results, stage, "overshoot_stress", series->unit,
-                           "The shear stress there.", replica,
+    TRY(results_put_scalar(results, stage, "overshoot_strain", "", NULL, replica,
+                           pseudo_value(n, all.strain, without.strain)));
+    TRY(results_put_scalar(results, stage, "overshoot_stress", series->unit, NULL, replica,
                            pseudo_value(n, all.peak, without.peak)));
     return results_put_scalar(
-        results, stage, "overshoot_height", "",
-        "How far the highest shear stress is above that of the later half "
-        "of the stage, over the latter.",
-        replica, pseudo_value(n, all.peak / all.steady - 1, without.peak / without.steady - 1));
+        results, stage, "overshoot_height", "", NULL, replica,
+        pseudo_value(n, all.peak / all.steady - 1, without.peak / without.steady - 1));
 }
 
 static Status derive_overshoot(Results *results, const ResultSeries *series, StartUp *mean) {
@@ -139,17 +134,15 @@ static double harmonic_ratio(const ResultSeries *series, size_t replicas, int64_
 Status derive_harmonics(Results *results, const ResultSeries *series) {
     static const struct {
         size_t harmonic;
-        const char *name, *about;
-    } ratios[] = {
-        {3, "third_harmonic", "Amplitude of the third harmonic of the stress over the first."},
-        {5, "fifth_harmonic", "Amplitude of the fifth harmonic of the stress over the first."}};
+        const char *name;
+    } ratios[] = {{3, "third_harmonic"}, {5, "fifth_harmonic"}};
     const size_t n = results->replicas;
     for (size_t k = 0; k < sizeof ratios / sizeof *ratios; k++) {
         const double all = harmonic_ratio(series, n, ALL, ratios[k].harmonic);
         for (size_t r = 0; r < n; r++) {
             const double without =
                 n < 2 ? all : harmonic_ratio(series, n, (int64_t)r, ratios[k].harmonic);
-            TRY(results_put_scalar(results, series->stage, ratios[k].name, "", ratios[k].about, r,
+            TRY(results_put_scalar(results, series->stage, ratios[k].name, "", NULL, r,
                                    pseudo_value(n, all, without)));
         }
     }

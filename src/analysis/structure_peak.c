@@ -43,8 +43,8 @@ static Status put_peak(Results *results, const ResultSeries *stretches, size_t p
     shape.axis[0] = stretches->axis[1];
     for (size_t r = 0; r < results->replicas; r++) {
         TRY(results_put_series(results, &shape, r, heights + r * times));
-        TRY(results_put_scalar(results, shape.stage, "structure_peak_wave_number", "1/d",
-                               "Where the total S(q) of all replicas is highest.", r, wave_number));
+        TRY(results_put_scalar(results, shape.stage, "structure_peak_wave_number", "1/d", NULL, r,
+                               wave_number));
     }
     return OK;
 }

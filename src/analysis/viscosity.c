@@ -16,9 +16,6 @@ static const char *unit_of(const System *system) {
 }
 
 static Status put_zero_shear(Results *results, const Curve *curve, const System *system) {
-    static const char SETTLED[] = "Einstein-Helfand, from zero_shear_viscosity_window to the last "
-                                  "lag; of the collisions, the "
-                                  "solvent's own is not in it.";
     static const char GROWING[] =
         "Lower bound, for the slope is not seen to have settled: Einstein-Helfand, from "
         "zero_shear_viscosity_window to the last lag.";
@@ -27,13 +24,10 @@ static Status put_zero_shear(Results *results, const Curve *curve, const System 
     const size_t begin = curve_window(curve, &settled);
     for (size_t replica = 0; replica < results->replicas; replica++) {
         TRY(results_put_scalar(results, stage, "zero_shear_viscosity", unit_of(system),
-                               settled ? SETTLED : GROWING, replica,
+                               settled ? NULL : GROWING, replica,
                                curve_slope(curve, replica, begin, curve->lags)));
-        TRY(results_put_scalar(
-            results, stage, "zero_shear_viscosity_window", curve->series->axis[0].unit,
-            "Start of the fit: over as long before it in log t the slope is the "
-            "same within two standard errors; or else a quarter of the last lag.",
-            replica, curve->times[begin]));
+        TRY(results_put_scalar(results, stage, "zero_shear_viscosity_window",
+                               curve->series->axis[0].unit, NULL, replica, curve->times[begin]));
     }
     return OK;
 }

@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "config/options.h"
 #include "config/sections.h"
+#include "results/results.h"
 
 #include <string.h>
 
@@ -142,6 +143,17 @@ static bool explain_unit(const char *word, FILE *out) {
     return false;
 }
 
+// Of the results: "long_time_diffusion_small" as well as "long_time_diffusion", with or without the
+// stage before it.
+static bool explain_quantity(const char *word, FILE *out) {
+    const char *slash = strrchr(word, '/');
+    const ResultMeaning *meaning = result_meaning(slash ? slash + 1 : word);
+    if (!meaning) return false;
+    fprintf(out, "%s\n  %s\n  A number among the results, from %s.\n", word, meaning->about,
+            meaning->of);
+    return true;
+}
+
 static void explain_all(FILE *out) {
     for (size_t s = 0; s < section_count(); s++) {
         const Section section = section_at(s);
@@ -221,8 +233,10 @@ Status config_explain(const char *word, FILE *out) {
         explain_all(out);
         return OK;
     }
-    if (strchr(word, '/')) return explain_unit(word, out) ? OK : explain_result(word, out);
-    bool found = explain_shape(word, out);
+    const bool quantity = explain_quantity(word, out);
+    if (strchr(word, '/'))
+        return quantity || explain_unit(word, out) ? OK : explain_result(word, out);
+    bool found = explain_shape(word, out) || quantity;
     found = explain_unit(word, out) || found;
     for (size_t s = 0; s < section_count(); s++) {
         const Section section = section_at(s);

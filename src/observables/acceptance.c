@@ -128,14 +128,13 @@ typedef struct Slot {
 } Slot;
 
 // NAME, or NAME_SPECIES where there are several.
-static Status put(const Slot *slot, const char *name, size_t species, const char *unit,
-                  const char *about, double value) {
+static Status put(const Slot *slot, const char *name, size_t species, double value) {
     const System *system = &slot->state->system;
     char full[RESULT_TEXT];
     const bool several = system->species_count > 1;
     snprintf(full, sizeof full, "%s%s%s", name, several ? "_" : "",
              several ? system->species[species].name : "");
-    return observer_put_scalar(&slot->acceptance->observer, full, unit, about, slot->results,
+    return observer_put_scalar(&slot->acceptance->observer, full, "", NULL, slot->results,
                                slot->replica, value);
 }
 
@@ -143,29 +142,20 @@ static Status put_ratios(const Slot *slot, size_t species) {
     const MoveTally *moves = &slot->acceptance->all[species];
     const double share = accepted(moves);
     const struct {
-        const char *name, *about;
+        const char *name;
         double squares, free;
     } motions[] = {
-        {"matching_parallel",
-         "Mean square of displacements along the body axis, over acceptance times that of free "
-         "bodies: below 1, short moves are accepted more often. diffusion-matching counts it.",
-         moves->parallel, moves->free.parallel},
-        {"matching_perpendicular", "The same across the body axis.", moves->perpendicular,
-         moves->free.perpendicular},
-        {"matching_rotational", "The same of rotations.", moves->rotational,
-         moves->free.rotational},
+        {"matching_parallel", moves->parallel, moves->free.parallel},
+        {"matching_perpendicular", moves->perpendicular, moves->free.perpendicular},
+        {"matching_rotational", moves->rotational, moves->free.rotational},
     };
     const System *system = &slot->state->system;
     if (!shape_is_oriented((ShapeKind)system->species[species].shape))
-        return put(
-            slot, "matching", species, "",
-            "Mean square of displacements, over acceptance times that of free particles: below "
-            "1, short moves are accepted more often. diffusion-matching counts it.",
-            (moves->parallel + moves->perpendicular) /
-                (share * (moves->free.parallel + moves->free.perpendicular)));
+        return put(slot, "matching", species,
+                   (moves->parallel + moves->perpendicular) /
+                       (share * (moves->free.parallel + moves->free.perpendicular)));
     for (size_t i = 0; i < sizeof motions / sizeof *motions; i++) {
-        TRY(put(slot, motions[i].name, species, "", motions[i].about,
-                motions[i].squares / (share * motions[i].free)));
+        TRY(put(slot, motions[i].name, species, motions[i].squares / (share * motions[i].free)));
     }
     return OK;
 }
@@ -173,16 +163,11 @@ static Status put_ratios(const Slot *slot, size_t species) {
 static Status put_species(const Slot *slot, size_t species) {
     const MoveTally *moves = &slot->acceptance->all[species],
                     *half = &slot->acceptance->half[species];
-    TRY(put(slot, "acceptance", species, "", "Fraction of the trials that were accepted.",
-            accepted(moves)));
+    TRY(put(slot, "acceptance", species, accepted(moves)));
     const double later =
         (double)(moves->accepted - half->accepted) / (double)(moves->trials - half->trials);
     if (half->trials > 0 && moves->trials > half->trials)
-        TRY(put(
-            slot, "acceptance_drift", species, "",
-            "Acceptance in the second half of the stage over that in the first, minus 1: if it is "
-            "not 0 within its error, the stage began before equilibrium.",
-            later / accepted(half) - 1));
+        TRY(put(slot, "acceptance_drift", species, later / accepted(half) - 1));
     return put_ratios(slot, species);
 }
 
@@ -204,15 +189,11 @@ static Status put_clock(const Slot *slot) {
     const System *system = &slot->state->system;
     const double time = (double)acceptance->seen * acceptance->observer.clock.tick;
     const double cycle = time * (double)slot->state->count / trials(slot);
-    TRY(observer_put_scalar(&acceptance->observer, "cycle_time", "d^2/D0",
-                            "Time that a cycle, as many trials as particles, was worth.",
-                            slot->results, slot->replica, cycle));
+    TRY(observer_put_scalar(&acceptance->observer, "cycle_time", "d^2/D0", NULL, slot->results,
+                            slot->replica, cycle));
     for (size_t s = 0; s < system->species_count; s++) {
-        TRY(put(
-            slot, "clock_over_acceptance_clock", s, "",
-            "What a cycle was worth over what acceptance-rescaling would give it; with that clock "
-            "and several species, how far each is off the common one.",
-            cycle / accepted_cycle(system, s, &acceptance->all[s])));
+        TRY(put(slot, "clock_over_acceptance_clock", s,
+                cycle / accepted_cycle(system, s, &acceptance->all[s])));
     }
     return OK;
 }

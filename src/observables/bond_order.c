@@ -251,14 +251,10 @@ static double mean_of(const double *values, size_t count) {
 
 static Status put_scalars(const BondOrder *self, Results *results, size_t replica) {
     const double *global = self->values + GLOBAL * self->looks;
-    TRY(observer_put_scalar(&self->observer, "bond_order_local", "",
-                            "Bond-orientational order of the neighbours of a particle, psi_6 in "
-                            "two dimensions, q_6 in three; mean over particles.",
-                            results, replica, mean_of(self->values, self->done)));
-    return observer_put_scalar(&self->observer, "bond_order_global", "",
-                               "Bond-orientational order of all particles together: of order "
-                               "1/sqrt(N) in a fluid or glass, of order 1 in a crystal.",
-                               results, replica, mean_of(global, self->done));
+    TRY(observer_put_scalar(&self->observer, "bond_order_local", "", NULL, results, replica,
+                            mean_of(self->values, self->done)));
+    return observer_put_scalar(&self->observer, "bond_order_global", "", NULL, results, replica,
+                               mean_of(global, self->done));
 }
 
 static Status put_looks(const BondOrder *self, double *times_seen, Results *results,

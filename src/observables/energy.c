@@ -149,13 +149,11 @@ static Status put_scalars(const Energy *energy, const State *state, Results *res
     for (size_t k = 0; k < energy->done; k++) sum += energy->values[k];
     const double mean = sum / (double)energy->done;
     const double z = 1 + energy->exponent * mean / state->box.dimension;
-    TRY(observer_put_scalar(observer, "energy", "kT", "Energy per particle.", results, replica,
-                            mean));
-    TRY(observer_put_scalar(observer, "compressibility_factor_virial", "",
-                            "P V/(N kT) = 1 + n U/(3 N kT), from the energy U.", results, replica,
+    TRY(observer_put_scalar(observer, "energy", "kT", NULL, results, replica, mean));
+    TRY(observer_put_scalar(observer, "compressibility_factor_virial", "", NULL, results, replica,
                             z));
-    return observer_put_scalar(observer, "pressure_virial", "kT/d^3", "From the energy.", results,
-                               replica, z * (double)state->count / box_volume(&state->box));
+    return observer_put_scalar(observer, "pressure_virial", "kT/d^3", NULL, results, replica,
+                               z * (double)state->count / box_volume(&state->box));
 }
 
 static Status put_looks(const Energy *energy, double *times, Results *results, size_t replica) {

@@ -183,30 +183,23 @@ static double mean_over_looks(const NematicOrder *self, size_t label, size_t est
 }
 
 static Status put_one(const NematicOrder *self, const Labels *labels, size_t label,
-                      const char *quantity, const char *about, Results *results, size_t replica,
-                      double value) {
+                      const char *quantity, Results *results, size_t replica, double value) {
     char name[RESULT_NAME];
     const bool alone = label + 1 == labels->count; // the only one, or all of them
     snprintf(name, sizeof name, "%s%s%s", quantity, alone ? "" : "_",
              alone ? "" : labels->names[label]);
-    return observer_put_scalar(&self->observer, name, "", about, results, replica, value);
+    return observer_put_scalar(&self->observer, name, "", NULL, results, replica, value);
 }
 
 static Status put_scalars(const NematicOrder *self, const Labels *labels, Results *results,
                           size_t replica) {
     for (size_t l = 0; l < self->labels; l++) {
-        TRY(put_one(self, labels, l, "nematic_order",
-                    "Largest eigenvalue of Q of each configuration; without any order N axes give "
-                    "0.803/sqrt(N).",
-                    results, replica, mean_over_looks(self, l, LARGEST)));
-        TRY(put_one(self, labels, l, "nematic_order_middle",
-                    "-2 times the middle eigenvalue of Q: zero without order, a little low with "
-                    "it.",
-                    results, replica, mean_over_looks(self, l, MIDDLE)));
-        TRY(put_one(self, labels, l, "squared_nematic_order",
-                    "S^2 as the mean of P2(u_i.u_j) over pairs of particles: no bias from their "
-                    "number.",
-                    results, replica, self->sums[l].pairs / (double)self->looks));
+        TRY(put_one(self, labels, l, "nematic_order", results, replica,
+                    mean_over_looks(self, l, LARGEST)));
+        TRY(put_one(self, labels, l, "nematic_order_middle", results, replica,
+                    mean_over_looks(self, l, MIDDLE)));
+        TRY(put_one(self, labels, l, "squared_nematic_order", results, replica,
+                    self->sums[l].pairs / (double)self->looks));
     }
     return OK;
 }

@@ -216,14 +216,10 @@ static Status put_harmonics(const Oscillatory *self, const State *state, Results
                  {.name = "harmonic", .unit = "", .count = HARMONICS, .values = orders}}};
     const char *unit = stress_unit(state->box.dimension);
     strcpy(shape.unit, unit);
-    TRY(observer_put_scalar(&self->observer, "storage_modulus", unit,
-                            "G' of the first harmonic: stress in phase with the strain, over its "
-                            "amplitude.",
-                            results, replica, moduli[0][0]));
-    TRY(observer_put_scalar(&self->observer, "loss_modulus", unit,
-                            "G'' of the first harmonic: stress in phase with the rate, over the "
-                            "strain's amplitude.",
-                            results, replica, moduli[1][0]));
+    TRY(observer_put_scalar(&self->observer, "storage_modulus", unit, NULL, results, replica,
+                            moduli[0][0]));
+    TRY(observer_put_scalar(&self->observer, "loss_modulus", unit, NULL, results, replica,
+                            moduli[1][0]));
     return observer_put_series(&self->observer, "stress_harmonics", &shape, results, replica,
                                moduli[0]);
 }

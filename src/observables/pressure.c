@@ -135,20 +135,13 @@ static Status put_scalars(const Pressure *pressure, const State *state, Results 
     const double partners = 2 * pressure->collisions[pressure->done] / count;
     const double time = flight(pressure, 0, pressure->done);
     const double step = (double)clock->ticks_per_step * clock->flight_time;
-    TRY(observer_put_scalar(observer, "compressibility_factor", "",
-                            "P V/(N kT) from the momentum exchanged in collisions.", results,
-                            replica, z));
+    TRY(observer_put_scalar(observer, "compressibility_factor", "", NULL, results, replica, z));
     TRY(observer_put_scalar(observer, "pressure", state->box.dimension == 2 ? "kT/d^2" : "kT/d^3",
-                            "From the momentum exchanged in collisions, kinetic part included.",
-                            results, replica, density * z));
-    TRY(observer_put_scalar(observer, "collision_rate", "sqrt(kT/m)/d",
-                            "Collisions per particle and time of flight, each counted for both "
-                            "partners.",
-                            results, replica, partners / (time * sqrt(temperature(pressure)))));
-    return observer_put_scalar(observer, "collisions_per_step", "",
-                               "Collisions per particle in a thermostat interval (Newtonian: in a "
-                               "window), each counted for both partners.",
-                               results, replica, partners * step / time);
+                            NULL, results, replica, density * z));
+    TRY(observer_put_scalar(observer, "collision_rate", "sqrt(kT/m)/d", NULL, results, replica,
+                            partners / (time * sqrt(temperature(pressure)))));
+    return observer_put_scalar(observer, "collisions_per_step", "", NULL, results, replica,
+                               partners * step / time);
 }
 
 static Status put_blocks(const Pressure *pressure, const State *state, double *values,

@@ -258,11 +258,9 @@ static Status put_passage(const Tracer *tracer, const System *system, Results *r
         .axes = 2,
         .axis = {{.name = "quantity", .unit = "", .count = 2, .labels = quantities},
                  {.name = "begin", .unit = "", .count = BEGINS, .values = BEGIN}}};
-    TRY(observer_put_scalar(&tracer->observer, "tracer_free_diffusion", "D0",
-                            "Diffusion coefficient of the tracer alone.", results, replica,
-                            tracer_free_diffusion(pull, system, clock->thermostatted)));
-    TRY(observer_put_scalar(&tracer->observer, "tracer_free_velocity", "D0/d",
-                            "D F/kT: the velocity of the tracer were there no bath.", results,
+    TRY(observer_put_scalar(&tracer->observer, "tracer_free_diffusion", "D0", NULL, results,
+                            replica, tracer_free_diffusion(pull, system, clock->thermostatted)));
+    TRY(observer_put_scalar(&tracer->observer, "tracer_free_velocity", "D0/d", NULL, results,
                             replica, free_velocity(clock, system)));
     return observer_put_series(&tracer->observer, "tracer_passage", &shape, results, replica,
                                tracer->passage[0]);

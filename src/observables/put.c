@@ -22,11 +22,8 @@ Status observer_put_shear_rate(const Observer *observer, Results *results, size_
     const Drive *drive = observer->clock.drive;
     if (!drive || !(drive_kinds(drive) & DRIVE_FLOW)) return OK;
     if (drive->flow.rate == 0)
-        return observer_put_scalar(observer, "largest_shear_rate", "D0/d^2",
-                                   "Largest rate of a flow that is not steady.", results, replica,
+        return observer_put_scalar(observer, "largest_shear_rate", "D0/d^2", NULL, results, replica,
                                    flow_fastest(&drive->flow));
-    return observer_put_scalar(
-        observer, "shear_rate", "D0/d^2",
-        "Steady rate of the flow v_x = shear_rate y: the bare Peclet number.", results, replica,
-        drive->flow.rate);
+    return observer_put_scalar(observer, "shear_rate", "D0/d^2", NULL, results, replica,
+                               drive->flow.rate);
 }

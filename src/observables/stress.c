@@ -190,20 +190,17 @@ static Status put_scalars(const Stress *self, const State *state, Results *resul
     // Over an oscillation the shear stress has no mean: `oscillatory_stress` has its harmonics.
     const size_t first = drive_oscillates(observer->clock.drive) ? 1 : 0;
     for (size_t s = first; s < stress_count(dimension); s++) {
-        TRY(observer_put_scalar(observer, stress_names[s], stress_unit(dimension), stress_abouts[s],
-                                results, replica, stage_mean(self, s)));
+        TRY(observer_put_scalar(observer, stress_names[s], stress_unit(dimension), NULL, results,
+                                replica, stage_mean(self, s)));
     }
     const Clock *clock = &observer->clock;
     const double rate = steady_rate(clock);
     if (rate == 0) return OK;
-    TRY(observer_put_scalar(observer, "stress_strain", "",
-                            "Strain over which the stress was averaged.", results, replica,
+    TRY(observer_put_scalar(observer, "stress_strain", "", NULL, results, replica,
                             ((double)self->done - (double)self->first) * (double)self->period *
                                 advance_of(clock)));
     return observer_put_scalar(observer, "shear_viscosity", dimension == 2 ? "kT/D0" : "kT/(d D0)",
-                               "sigma_xy/shear_rate, of the collisions; the solvent's own is not "
-                               "in it.",
-                               results, replica, stage_mean(self, 0) / rate);
+                               NULL, results, replica, stage_mean(self, 0) / rate);
 }
 
 static Status put_windows(const Stress *self, const State *state, double *values, double *axis,

@@ -4,12 +4,6 @@
 
 const char *const stress_names[STRESSES_MOST] = {
     "shear_stress", "normal_stress_difference", "mean_pressure", "second_normal_stress_difference"};
-const char *const stress_abouts[STRESSES_MOST] = {
-    "sigma_xy from the momentum exchanged in collisions, positive where it resists the flow.",
-    "sigma_xx - sigma_yy from the momentum exchanged in collisions.",
-    ("Mean of the normal pressures from the momentum exchanged in collisions, kinetic part "
-     "included."),
-    "sigma_yy - sigma_zz from the momentum exchanged in collisions."};
 
 const char *stress_unit(int dimension) {
     return dimension == 2 ? "kT/d^2" : "kT/d^3";

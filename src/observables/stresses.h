@@ -10,7 +10,6 @@
 enum { STRESSES_MOST = 4 };
 
 extern const char *const stress_names[STRESSES_MOST]; // shear stress first
-extern const char *const stress_abouts[STRESSES_MOST];
 
 static inline size_t stress_count(int dimension) {
     return dimension == 2 ? 3 : 4;

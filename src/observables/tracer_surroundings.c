@@ -270,14 +270,10 @@ static double evenly_touching(const Rings *rings, const State *state) {
 static Status put_contact(const Rings *rings, const State *state, Results *results,
                           size_t replica) {
     const double even = evenly_touching(rings, state);
-    TRY(observer_put_scalar(
-        &rings->observer, "contact_density_front", "",
-        "Bath particles within 0.05 d of contact whose nearest point is within 30 degrees of the "
-        "force, "
-        "in front of the tracer, over how many there were if they were spread evenly.",
-        results, replica, rings->touching[0] / even));
-    return observer_put_scalar(&rings->observer, "contact_density_behind", "",
-                               "The same behind it.", results, replica, rings->touching[1] / even);
+    TRY(observer_put_scalar(&rings->observer, "contact_density_front", "", NULL, results, replica,
+                            rings->touching[0] / even));
+    return observer_put_scalar(&rings->observer, "contact_density_behind", "", NULL, results,
+                               replica, rings->touching[1] / even);
 }
 
 // In a cylinder of about the tracer's radius behind it, from contact on.
@@ -296,10 +292,8 @@ static Status put_wake(const Rings *rings, const State *state, Results *results,
         }
         if (behind > contact) missing += width * (1 - count / (volume * evenly(rings, state)));
     }
-    return observer_put_scalar(&rings->observer, "wake_length", "d",
-                               "Integral of the missing density, 1 - rho/mean, behind the tracer: "
-                               "from contact to the reach of the rings, within its radius.",
-                               results, replica, missing);
+    return observer_put_scalar(&rings->observer, "wake_length", "d", NULL, results, replica,
+                               missing);
 }
 
 // Discs have another nearest point.

@@ -135,9 +135,8 @@ static Status put_temperature(const Velocities *velocities, const Labels *specie
                  alone ? "" : species->names[s]);
         const double value =
             alone ? squares / samples : velocities->squares[s] / (double)velocities->samples[s];
-        TRY(observer_put_scalar(&velocities->observer, quantity, "kT",
-                                "Mean square of the velocity components times the mass.", results,
-                                replica, value));
+        TRY(observer_put_scalar(&velocities->observer, quantity, "kT", NULL, results, replica,
+                                value));
     }
     return OK;
 }

@@ -132,10 +132,7 @@ static Status put(const Profile *self, const State *state, double *velocity, dou
     TRY(observer_put_series(&self->observer, "velocity_profile", &shape, results, replica,
                             velocity));
     TRY(observer_put_series(&self->observer, "flow_profile", &shape, results, replica, flow));
-    return observer_put_scalar(&self->observer, "velocity_slope", "",
-                               "Slope of the velocity profile over the shear rate: 1 where the "
-                               "flow is what it should be.",
-                               results, replica,
+    return observer_put_scalar(&self->observer, "velocity_slope", "", NULL, results, replica,
                                1 + self->tilt / (self->shear_rate * self->squares));
 }
 

@@ -217,6 +217,11 @@ Status results_put_scalar(Results *results, const char *stage, const char *quant
                           const char *unit, const char *about, size_t replica, double value) {
     ASSERT(replica < results->replicas);
     ResultScalar *scalar = find_scalar(results, stage, quantity);
+    if (!about) {
+        const ResultMeaning *meaning = result_meaning(quantity);
+        ASSERT(meaning);
+        about = meaning->about;
+    }
     if (!scalar) TRY(add_scalar(results, stage, quantity, unit, about, &scalar));
     scalar->values[replica] = value;
     return OK;

@@ -62,6 +62,16 @@ typedef struct Results {
     ResultCounter *health;
 } Results;
 
+// What a quantity is, whatever the run: a row of meanings.def.
+typedef struct ResultMeaning {
+    const char *name; // with * at the end if a species, a pair or a direction may follow
+    const char *of;   // the observable
+    const char *about;
+} ResultMeaning;
+
+const ResultMeaning *result_meaning(const char *quantity); // the longest that fits; NULL if none
+const ResultMeaning *result_meaning_at(size_t row);        // NULL past the last
+
 Status results_create(Results **out, size_t replicas);
 void results_free(Results *results);
 
@@ -72,6 +82,7 @@ Status results_put_series(Results *results, const ResultSeries *shape, size_t re
 // One element of a series, by its place among the replica's values.
 Status results_put_element(Results *results, const ResultSeries *shape, size_t replica,
                            size_t element, double value);
+// Without `about` the sentence is that of meanings.def, which then must have one.
 Status results_put_scalar(Results *results, const char *stage, const char *quantity,
                           const char *unit, const char *about, size_t replica, double value);
 Status results_put_fact(Results *results, const char *name, const char *text);

@@ -41,6 +41,10 @@ lacks() { ! grep -q "$@"; }
 # Numbers.
 "$perrin" show small > table
 "$perrin" show small --csv > table.csv
+for quantity in $(tail -n +2 table.csv | cut -d, -f1 | grep '^rest/'); do
+    expect "what $quantity is can be asked without a run" \
+        sh -c "'$perrin' explain ${quantity#*/} | grep -q ."
+done
 expect "every quantity of the table stands in the CSV, in the same order" \
     sh -c "sed -n '2,/^\$/p' table | awk 'NF {print \$1}' > a &&
            sed 1d table.csv | cut -d, -f1 > b && test -s a && cmp a b"
@@ -91,6 +95,9 @@ expect "the page loads nothing" lacks -E '(src|href)="?(http|//|file)|@import|<s
 expect "the page has a figure or says why not" grep -q '<svg' $page
 cp $page before.html
 expect "written again, the page is the same" sh -c "'$perrin' report small && cmp before.html $page"
+
+expect "and its sentence is that of the table" \
+    sh -c "'$perrin' explain long_time_diffusion | grep -q 'Slope of <r^2>/(2 dim) against t'"
 
 # A sweep over rates, whose windows of strain differ; the flow of one of them from a file as well.
 sed -e '/^protocol/,$d' small.yaml > flow.yaml

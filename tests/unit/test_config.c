@@ -4,6 +4,7 @@
 #include "observe.h"
 
 #include "config/config.h"
+#include "results/results.h"
 
 #include "base/memory.h"
 #include "base/text.h"
@@ -397,6 +398,16 @@ START_TEST(every_key_of_every_table_can_be_explained) {
         ck_assert_int_eq(config_explain(propagator_kinds[k]->name, nowhere), OK);
     for (size_t k = 0; k < SHAPES; k++)
         ck_assert_int_eq(config_explain(shape_names[k], nowhere), OK);
+    for (size_t k = 0; result_meaning_at(k); k++) {
+        char name[RESULT_NAME];
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(result_meaning_at(k)->name, "*"),
+                 result_meaning_at(k)->name);
+        ck_assert_int_eq(config_explain(name, nowhere), OK);
+        ck_assert_ptr_eq(result_meaning(name), result_meaning_at(k));
+    }
+    ck_assert_str_eq(result_meaning("long_time_diffusion_y_big")->name, "long_time_diffusion*");
+    ck_assert_ptr_null(result_meaning("long_time_diffusions"));
+    ck_assert_ptr_null(result_meaning("wake_length_big"));
     ck_assert_int_eq(config_explain("gibberish", nowhere), BAD_USAGE);
     fclose(nowhere);
 }
