@@ -63,6 +63,10 @@ static Status tell_other_plan(const Session *session, const char *there) {
         snprintf(sentence, sizeof sentence,
                  "'%.1000s' holds a run of another plan: %s; choose another directory with -o",
                  store_directory(session->store), text_words(&keys));
+    } else {
+        const size_t length = strlen(sentence);
+        snprintf(sentence + length, sizeof sentence - length,
+                 ". The keys differ: another version may have begun it, which log.txt names");
     }
     text_free(&keys);
     memory_free(difference);

@@ -72,7 +72,8 @@ written over it; $elsewhere" run small.yaml -o orphan
 mkdir strange && echo "dear diary" > strange/plan.yaml
 say 73 "perrin: error: 'strange' holds a run of another plan: line 1 of its plan.yaml is 'dear \
 diary', here it is '# A run file with every value written out; \`perrin explain KEY\` says \
-more.'; $elsewhere" run small.yaml -o strange
+more.'; $elsewhere. The keys differ: another version may have begun it, which log.txt names" \
+    run small.yaml -o strange
 
 # Results that are none.
 mkdir cut text empty && head -c 3000 done/results.h5 > cut/results.h5
