@@ -20,6 +20,8 @@ enum { STATES = 5, BISECTIONS_MOST = 40, TRIES_MOST = 60, LOWERINGS = 6 };
 static const double LOWERING = 0.15;   // of the interval that is searched
 static const double CURVATURE = 0.3;   // of phi/phi_c in s, a guess
 static const double TOLERANCE = 0.4;   // of what is aimed at: how far a state may lie from it
+static const double NEARER = 0.4;      // of s: what is aimed at from far, lest it be a fluid, which
+                                       // takes longest to tell near the transition
 static const double SLOPE_STEP = 1e-3; // of phi/phi_c, for the derivative of sigma
 
 typedef struct CriticalState {
@@ -175,7 +177,8 @@ static void keep(Search *search, double packing_fraction) {
 
 static Status gather_states(Search *search) {
     for (int tries = 0; search->found < STATES; tries++) {
-        const double goal = AIMS[search->found], next = aim(search, goal);
+        const double goal = AIMS[search->found];
+        const double next = aim(search, fmax(goal, NEARER * search->s));
         bool glass = false;
         if (tries == TRIES_MOST)
             return status_fail(UNHEALTHY,

@@ -33,7 +33,8 @@ static const struct { double width, end; } Q_PANELS[] = {{0.2, 12}, {0.4, 40}, {
 enum { Q_PANEL_KINDS = 3 };
 static const double Q_NEWTON = 40; // the derivatives of Newton's method leave out what is beyond
 
-static const double CONVERGED = 1e-9; // of h + 1; rounding leaves 1e-10
+static const double CONVERGED = 1e-9;   // of h + 1; rounding leaves 1e-10
+static const double NEAR_ENOUGH = 1e-4; // on the way to the density that is wanted
 // Packing fractions: the steps by which solutions are followed, below and above DILUTE.
 static const double DILUTE = 0.5, LONG_STEP = 0.25, SHORT_STEP = 0.08;
 static const double CLOSE = 1e-9; // of breakpoints: the same
@@ -614,12 +615,13 @@ static void step(Discs *discs) {
 
 // Newton's method from where the last solution left; the derivatives are made anew when a step
 // has not halved the residual.
-static Status iterate(Discs *discs, const Densities *densities, OzEffort *effort) {
+static Status iterate(Discs *discs, const Densities *densities, double converged,
+                      OzEffort *effort) {
     double before = INFINITY;
     bool fresh = discs->solved > 0;
     for (effort->iterations = 0; effort->iterations < STEPS_MOST; effort->iterations++) {
         TRY(fill_residuals(discs, densities, &effort->residual));
-        if (effort->residual < CONVERGED) return OK;
+        if (effort->residual < converged) return OK;
         if (effort->residual > 1e6) break;
         if (!fresh || effort->residual > 0.5 * before) TRY(decompose(discs, densities));
         fresh = true;
@@ -665,7 +667,7 @@ static Status follow(Discs *discs, const Structure *structure, double finer, OzE
             densities_of(&discs->mixture, structure->density * next / target);
         guess(discs, next);
         effort->at = next;
-        TRY(iterate(discs, &densities, effort));
+        TRY(iterate(discs, &densities, next == target ? CONVERGED : NEAR_ENOUGH, effort));
         effort->reached = discs->solved = next;
     } while (discs->solved != target);
     return OK;
