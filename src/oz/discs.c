@@ -184,12 +184,12 @@ static void rule_free(PanelRule *rule) {
 }
 
 // Points for wave numbers up to q: three and more for each half wave where the radius changes
-// fastest with t, and enough for the polynomials. In steps, so that a rule serves many wave
-// numbers.
+// fastest with t, and enough for the polynomials. In steps, so that a rule, whose cost is the
+// square of its points, serves many wave numbers.
 static size_t rule_points(const Discs *discs, size_t panel, double q) {
-    enum { STEP = 16 };
     const double wanted = 16 + 0.55 * 1.5 * q * (discs->to[panel] - discs->from[panel]);
-    return STEP * (size_t)ceil(wanted / STEP);
+    const double step = wanted < 128 ? 16 : 128;
+    return (size_t)(step * ceil(wanted / step));
 }
 
 // Transforms of the polynomials of one panel at ascending wave numbers.
