@@ -17,6 +17,7 @@ static const double MARGIN_DIFFUSIVE = 2.5, MARGIN_BALLISTIC = 4.5;
 static const double BOX_DIAMETERS = 2.2; // shortest edge, in largest diameters
 static const double FLIGHT_MOST = 0.05;  // thermal flight in a window, in d
 static const int64_t PARTICLES_MOST = 1 << 28;
+static const double BUCKETS = 25; // per particle in a time of d sqrt(m/kT): one per event, about
 
 static Status allocate_motion(Motion *motion, int dimension, size_t slots) {
     for (int a = 0; a < dimension; a++) {
@@ -54,7 +55,8 @@ static Status allocate(Engine *engine) {
     engine->slots = (count / BLOCK + 1) * BLOCK;
     TRY(allocate_slots(engine));
     TRY(NEW_ARRAY(engine->thermal_of, count));
-    for (engine->buckets = 64; engine->buckets < count / 4;) engine->buckets *= 2;
+    const double collisions = BUCKETS * engine->settings.window * (double)count;
+    for (engine->buckets = 64; engine->buckets < collisions;) engine->buckets *= 2;
     engine->buckets_per_time = engine->buckets / engine->settings.window;
     engine->half_per_window = 0.5 / engine->settings.window;
     TRY(NEW_ARRAY(engine->bucket, engine->buckets));
