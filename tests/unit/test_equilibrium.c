@@ -77,8 +77,7 @@ static void assert_says(double tau, double global, double drift, const char *wor
 }
 
 START_TEST(relaxations_are_counted) {
-    // To 1/e of the first lag, 0.1: that much later.
-    assert_says(2, 0.1, 0, "it lasts 23.8 times its longest relaxation time, 2.1");
+    assert_says(2, 0.1, 0, "it lasts 25 times its longest relaxation time, 2 d");
     assert_says(9, 0.1, 0, "d sqrt(m/kT), not the ten it should;");
     assert_says(100, 0.1, 0, "has not relaxed");
 }
