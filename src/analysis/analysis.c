@@ -59,7 +59,7 @@ static const struct {
     {"structure_factor_cuts", .alone = derive_structure_change},
     {"quartic_displacement", .with = derive_non_gaussian},
     {"overlap_square", .with = derive_susceptibility},
-    {"overlap_square_centred", .with = derive_centred_susceptibility},
+    {"overlap_square_centred", .with = derive_susceptibility},
     {"stress", .alone = derive_start_up},
     {"stress_harmonics", .alone = derive_harmonics},
     {"contact_stress", .with = derive_contact_stress},

@@ -170,12 +170,14 @@ static double variance(double square, double mean, double particles) {
     return particles * (square - mean * mean);
 }
 
-static Status susceptibility(Results *results, const ResultSeries *square, const System *system,
-                             const char *observable, const char *name) {
-    const ResultSeries *overlap = results_find_series(results, square->stage, observable);
+// Of what is seen from the box, or from the centre of mass.
+Status derive_susceptibility(Results *results, const ResultSeries *square, const System *system) {
+    const bool centred = strcmp(square->observable, "overlap_square_centred") == 0;
+    const ResultSeries *overlap =
+        results_find_series(results, square->stage, centred ? "overlap_centred" : "overlap");
     if (!overlap || overlap->size != square->size) return OK;
     const Function function = {
-        .name = name,
+        .name = centred ? "four_point_susceptibility_centred" : "four_point_susceptibility",
         .about = "chi_4 = N (<Q^2> - <Q>^2) of the overlap Q, over time origins and replicas, at "
                  "fixed numbers of particles.",
         .first = square,
@@ -183,14 +185,4 @@ static Status susceptibility(Results *results, const ResultSeries *square, const
         .constant_of = particles_of,
         .of = variance};
     return put(results, &function, system);
-}
-
-Status derive_susceptibility(Results *results, const ResultSeries *square, const System *system) {
-    return susceptibility(results, square, system, "overlap", "four_point_susceptibility");
-}
-
-Status derive_centred_susceptibility(Results *results, const ResultSeries *square,
-                                     const System *system) {
-    return susceptibility(results, square, system, "overlap_centred",
-                          "four_point_susceptibility_centred");
 }

@@ -56,5 +56,3 @@ Status derive_moduli(Results *results, const ResultSeries *wandering, const Syst
 Status derive_friction(Results *results, const ResultSeries *passage);
 Status derive_friction_limits(Results *results, const ResultSeries *passage, const System *system);
 Status derive_susceptibility(Results *results, const ResultSeries *square, const System *system);
-Status derive_centred_susceptibility(Results *results, const ResultSeries *square,
-                                     const System *system);

@@ -183,8 +183,8 @@ static Status set_scale(Balls *balls, double scale) {
         balls->largest = fmax(balls->largest, 2 * balls->radius[i]);
         balls->smallest = fmin(balls->smallest, 2 * balls->radius[i]);
     }
-    balls->same = balls->smallest == balls->largest;
-    balls->unscaled = edges_are_equal(state) && (balls->soft || balls->same);
+    balls->one_size = balls->smallest == balls->largest;
+    balls->unscaled = edges_are_equal(state) && (balls->soft || balls->one_size);
     set_coarse_bounds(balls);
     return balls_list(balls);
 }

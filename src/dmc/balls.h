@@ -59,7 +59,7 @@ struct Balls {
     int dimension;
     size_t count;
     bool soft;
-    bool same;      // diameters
+    bool one_size;  // equal diameters
     bool unscaled;  // coarse distances are compared as they are: equal edges, and diameters if hard
     int exponent;   // of soft spheres
     double scale;   // of the diameters

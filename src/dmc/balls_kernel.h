@@ -365,7 +365,7 @@ KERNEL void count_accepted(MoveTally *moves, __m128d squares) {
 }
 
 // The rows of a list are looked up before the trial before is judged, and put right if that moves.
-KERNEL bool run_trials(const bool soft, const bool unscaled, const bool same, Balls *balls,
+KERNEL bool run_trials(const bool soft, const bool unscaled, const bool one_size, Balls *balls,
                        size_t from, size_t to, MoveTally *tallies) {
     const uint32_t first = soft ? SOFT_ENTRIES : HARD_ENTRIES;
     Walk walk = walk_of(unscaled, balls);
@@ -377,7 +377,7 @@ KERNEL bool run_trials(const bool soft, const bool unscaled, const bool same, Ba
         const __m256i place = place_after(&walk, t);
         const __m128i to_row = coarse_of(place);
         const Verdict verdict =
-            soft ? look_at_energies(unscaled, same, &walk.glass, i, to_row, &seen, list,
+            soft ? look_at_energies(unscaled, one_size, &walk.glass, i, to_row, &seen, list,
                                     walk.ball[i].entries, balls->affordable[t])
                  : look_for_overlaps(unscaled, &walk.glass, to_row, &seen, list,
                                      walk.ball[i].entries);
@@ -400,10 +400,10 @@ KERNEL bool run_trials(const bool soft, const bool unscaled, const bool same, Ba
 }
 
 KERNEL bool run_block(Balls *balls, size_t from, size_t to, MoveTally *tallies) {
-    const bool soft = balls->soft, unscaled = balls->unscaled, same = balls->same;
-    if (soft && unscaled && same) return run_trials(true, true, true, balls, from, to, tallies);
+    const bool soft = balls->soft, unscaled = balls->unscaled, one_size = balls->one_size;
+    if (soft && unscaled && one_size) return run_trials(true, true, true, balls, from, to, tallies);
     if (soft && unscaled) return run_trials(true, true, false, balls, from, to, tallies);
-    if (soft && same) return run_trials(true, false, true, balls, from, to, tallies);
+    if (soft && one_size) return run_trials(true, false, true, balls, from, to, tallies);
     if (soft) return run_trials(true, false, false, balls, from, to, tallies);
     const bool alone = balls->count == 1; // nobody else fills its list
     if (unscaled && !alone) return run_trials(false, true, true, balls, from, to, tallies);

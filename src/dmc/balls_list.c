@@ -181,7 +181,7 @@ static size_t search(const Balls *balls, uint32_t i) {
     for (size_t n = 0; n < near; n++) {
         const uint32_t j = balls->found[n];
         balls->found[count] = j;
-        count += j != i && (balls->same || belong(balls, i, balls->ball[i].anchor, j));
+        count += j != i && (balls->one_size || belong(balls, i, balls->ball[i].anchor, j));
     }
     return count;
 }
@@ -190,7 +190,7 @@ static size_t search(const Balls *balls, uint32_t i) {
 static size_t outside(const Balls *balls, uint32_t i, const uint32_t anchor[3], const uint32_t *ids,
                       size_t count, uint32_t *others) {
     size_t number = 0;
-    if (balls->same) {
+    if (balls->one_size) {
         return balls->kernel->beyond(balls, balls_coarse(anchor), ids, count, others);
     }
     for (size_t n = 0; n < count; n++) {

@@ -135,10 +135,10 @@ KERNEL Verdict look_for_overlaps(const bool unscaled, const Glass *glass, __m128
 }
 
 // Squares of the coarse contacts of i with those of the list from n on.
-KERNEL Real contacts2(const bool same, const Glass *glass, uint32_t i, const uint32_t *list,
+KERNEL Real contacts2(const bool one_size, const Glass *glass, uint32_t i, const uint32_t *list,
                       uint32_t n) {
     const Real own = all_real(glass->radius[i]);
-    const Real contact = own + (same ? own : reals_of(glass->radius, list + n));
+    const Real contact = own + (one_size ? own : reals_of(glass->radius, list + n));
     return contact * contact * all_real(glass->steps2);
 }
 
@@ -167,7 +167,7 @@ KERNEL void energies(const Glass *glass, const Real contact2[ENDS / 2], Real of[
     for (int k = 0; k < ENDS; k++) of[k] = least(power[k], glass->flat);
 }
 
-KERNEL Verdict look_at_energies(const bool unscaled, const bool same, const Glass *glass,
+KERNEL Verdict look_at_energies(const bool unscaled, const bool one_size, const Glass *glass,
                                 uint32_t i, __m128i to, const Seen *seen, const uint32_t *list,
                                 uint32_t entries, int32_t affordable) {
     const Whole here = all_rows(glass->coarse[i]), there = all_rows_low(to);
@@ -179,7 +179,7 @@ KERNEL Verdict look_at_energies(const bool unscaled, const bool same, const Glas
             const Rows rows =
                 n < SOFT_ENTRIES ? seen->rows[n / LANES + k] : rows_of(glass, list + n + k * LANES);
             const Whole end = apart(unscaled, glass, there, rows);
-            contact2[k] = contacts2(same, glass, i, list, n + k * LANES);
+            contact2[k] = contacts2(one_size, glass, i, list, n + k * LANES);
             of[2 * k] = reals(apart(unscaled, glass, here, rows));
             of[2 * k + 1] = reals(end);
             if (n == 0 && k == 0) leashed = below(false, end, glass->leashed) & 1;

@@ -94,9 +94,9 @@ static const Option rows[] = {
      .least = 0,
      .most = 1e9,
      .unit = "d^2/D0",
-     .about = "Time from one trajectory of the tracer to the next, which begins somewhere else: in "
-              "place "
-              "of a particle like it, or where there is room; 0: the stage is one trajectory."},
+     .about =
+         "Time from one trajectory of the tracer to the next, which begins somewhere else: in "
+         "place of a particle like it, or where there is room; 0: the stage is one trajectory."},
     {.name = "pull.rest",
      .type = OPTION_REAL,
      .offset = offsetof(Drive, pull.rest),

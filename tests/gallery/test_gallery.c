@@ -161,28 +161,37 @@ START_TEST(verdicts_are_as_the_readme_says) {
              "line@0,Z,0.5,0,0,0.03,exact,a straight line to zero\n"
              "a,Z,b,0,1.99,,independent,another point with an error as large\n"
              "a,Z,b,0,1.95,,independent,beyond\n"
+             "a,Z,0.5 * b,0,0.24,,independent,half of another point and of its error\n"
+             "a,Z,0.5 * b,0,0.2,,independent,beyond\n"
+             "a,Z,> 0.5 * b,0,0,,published,a bound that is a multiple\n"
              "a,Z,> 2.4,0,0,,published,a bound\n"
              "a,Z,>2.49,0,0,,published,near a bound\n"
              "a,Z,< 2.6,0,0,,published,a bound\n"
              "a,Z,< 2.4,0,0,,published,beyond a bound\n");
     FILE *out = fopen("/dev/null", "w");
     ck_assert_int_eq(gallery_judge(&run, out, &missed, &count), OK);
-    fclose(out);
-    ck_assert_uint_eq(count, 12);
-    ck_assert_uint_eq(missed, 5);
-    static const char *const verdicts[] = {"met", "MISSED", "met", "met",    "coarse", "met",
-                                           "met", "MISSED", "met", "coarse", "met",    "MISSED"};
+    ck_assert_uint_eq(count, 15);
+    ck_assert_uint_eq(missed, 6);
+    static const char *const verdicts[] = {"met", "MISSED", "met",    "met", "coarse",
+                                           "met", "met",    "MISSED", "met", "MISSED",
+                                           "met", "met",    "coarse", "met", "MISSED"};
     Csv *csv = NULL;
     char path[GALLERY_PATH];
     ck_assert_int_eq(gallery_path(path, folder, "verdict.csv"), OK);
     ck_assert_int_eq(csv_read(&csv, path), OK);
-    for (size_t i = 0; i < 12; i++) ck_assert_str_eq(csv_cell(csv, i, "verdict"), verdicts[i]);
+    for (size_t i = 0; i < 15; i++) ck_assert_str_eq(csv_cell(csv, i, "verdict"), verdicts[i]);
     ck_assert_str_eq(csv_cell(csv, 0, "deviation"), "-2.9");
     // Errors of 0.01 at x = 1 and 2: sqrt(2^2 + 1) of them at 0.
     double value;
     ck_assert_int_eq(csv_number(csv, 5, "error", NAN, &value), OK);
     ck_assert_double_eq_tol(value, 0.01 * sqrt(5), 1e-9);
     csv_free(csv);
+    put_file("expected.csv",
+             "subject,measure,expected,uncertainty,tolerance,precision,kind,source\n"
+             "a,Z,half * b,0,0,,exact,no number\n");
+    ck_assert_int_eq(gallery_judge(&run, out, &missed, &count), BAD_DATA);
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "'half' before ' * ' is not a number"));
+    fclose(out);
     char *curve = file_text("b-msd.csv");
     ck_assert_ptr_nonnull(strstr(curve, "1,5,0\n"));
     memory_free(curve);
