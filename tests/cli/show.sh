@@ -38,6 +38,21 @@ expect() {
 }
 lacks() { ! grep -q "$@"; }
 
+# A measure of whether the halves of a stage agree is one that its method can observe.
+halves() {
+    sed "s/^  species:.*/  species: {$2}/; s/^dynamics:.*/dynamics: {method: $3}/
+         s/observe:.*/observe: [snapshot]}/; s/dimension: 2/dimension: $4/" small.yaml > halves.yaml
+    expect "check advises to observe $1" \
+        sh -c "'$perrin' check halves.yaml | grep -q 'whether its halves agree ($1)'"
+}
+halves pressure 'light: {shape: disc, fraction: 1}' 'event-driven, thermostat_interval: 0.05' 2
+halves acceptance 'ball: {shape: sphere, fraction: 1}' 'dynamic-monte-carlo, step: 0.05' 3
+halves energy 'soft: {shape: soft-sphere, exponent: 36, fraction: 1}' \
+    'dynamic-monte-carlo, step: 0.05' 3
+halves structure_factor \
+    'small: {shape: sphere, fraction: 0.5}, big: {shape: sphere, diameter: 1.2, fraction: 0.5}' \
+    'dynamic-monte-carlo, step: 0.05, clock: acceptance-rescaling' 3
+
 # Numbers.
 "$perrin" show small > table
 "$perrin" show small --csv > table.csv
