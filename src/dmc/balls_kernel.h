@@ -351,20 +351,38 @@ KERNEL __m256i place_after(const Walk *walk, size_t t) {
                             _mm256_cvtepi32_epi64(step));
 }
 
-// The radius, above the place, stays.
-KERNEL uint64_t move_ball(const bool has_radius, const Walk *walk, uint32_t i, __m256i place,
-                          __m128i row) {
-    const uint64_t radius = 0xffffull << 48, moved = (uint64_t)_mm_cvtsi128_si64(row);
-    _mm256_store_si256((__m256i *)walk->ball[i].place, place);
-    return walk->coarse[i] = has_radius ? (moved & ~radius) | (walk->coarse[i] & radius) : moved;
+// Here the compiler forgets where a bit comes from. Else it may jump by the outcome of a trial, and
+// half of such jumps are mispredicted.
+KERNEL uint64_t bit_of(uint64_t bit) {
+    __asm__("" : "+r"(bit));
+    return bit;
 }
 
-KERNEL void count_accepted(MoveTally *moves, __m128d squares) {
-    moves->accepted++;
-    _mm_storeu_pd(&moves->parallel, _mm_add_pd(_mm_loadu_pd(&moves->parallel), squares));
+// `accepted` is 0 or 1: no jump, and what is written may be what was there. The radius, above the
+// place, stays.
+KERNEL uint64_t move_ball(const bool has_radius, const Walk *walk, uint32_t i, uint64_t accepted,
+                          __m256i place, __m128i row) {
+    const uint64_t before = walk->coarse[i], moved = (uint64_t)_mm_cvtsi128_si64(row);
+    const uint64_t changes = has_radius ? ~(0xffffull << 48) : ~0ull;
+    const uint64_t after = before ^ ((before ^ moved) & changes & -accepted);
+    __m256i *at = (__m256i *)walk->ball[i].place;
+    const __m256i old = _mm256_load_si256(at), all = _mm256_set1_epi64x(-(int64_t)accepted);
+    _mm256_store_si256(
+        at, _mm256_xor_si256(old, _mm256_and_si256(_mm256_xor_si256(old, place), all)));
+    return walk->coarse[i] = after;
 }
 
-// The rows of a list are looked up before the trial before is judged, and put right if that moves.
+KERNEL void count_trial(MoveTally *moves, uint64_t accepted, __m128d squares) {
+    const __m128d all = _mm_castsi128_pd(_mm_set1_epi64x(-(int64_t)accepted));
+    moves->trials++;
+    moves->accepted += (int64_t)accepted;
+    _mm_storeu_pd(&moves->parallel,
+                  _mm_add_pd(_mm_loadu_pd(&moves->parallel), _mm_and_pd(squares, all)));
+}
+
+// The rows of a list are looked up before the trial before is judged, and put right if that moves
+// one of them, which is rare: else a processor that looks ahead works at the next trials before
+// this one is decided.
 KERNEL bool run_trials(const bool soft, const bool unscaled, const bool one_size, Balls *balls,
                        size_t from, size_t to, MoveTally *tallies) {
     const uint32_t first = soft ? SOFT_ENTRIES : HARD_ENTRIES;
@@ -381,20 +399,21 @@ KERNEL bool run_trials(const bool soft, const bool unscaled, const bool one_size
                                     walk.ball[i].entries, balls->affordable[t])
                  : look_for_overlaps(unscaled, &walk.glass, to_row, &seen, list,
                                      walk.ball[i].entries);
-        if (__builtin_expect(!(verdict.accepted | verdict.rejected), 0)) {
+        const uint64_t accepted = bit_of(verdict.accepted);
+        if (__builtin_expect(!bit_of(accepted | verdict.rejected), 0)) {
             if (!try_exactly(balls, t, tallies)) return false;
             walk.lists = balls->list;
             walk.room = balls->room;
             seen = seen_in(&walk.glass, list_at(&walk, t + 1), first);
             continue;
         }
-        MoveTally *moves = &tallies[walk.ball[i].species];
+        count_trial(&tallies[walk.ball[i].species], accepted,
+                    squares_of(balls->move[t], walk.unit));
+        const uint64_t row = move_ball(!soft && !unscaled, &walk, i, accepted, place, to_row);
         seen = next;
-        moves->trials++;
-        if (verdict.rejected) continue;
-        count_accepted(moves, squares_of(balls->move[t], walk.unit));
-        const uint64_t row = move_ball(!soft && !unscaled, &walk, i, place, to_row);
-        seen = seen_after(seen, list_at(&walk, t + 1), first, i, row);
+        if (__builtin_expect(bit_of(accepted & is_seen(list_at(&walk, t + 1), first, i)), 0)) {
+            seen = seen_after(seen, list_at(&walk, t + 1), first, i, row);
+        }
     }
     return true;
 }

@@ -43,6 +43,11 @@ KERNEL Whole half_of_rows(const uint64_t *table, const uint32_t *ids) {
     return _mm512_i32gather_epi64(_mm256_load_si256((const __m256i *)ids), (const void *)table, 8);
 }
 
+// One bit for each of as many ids as there are lanes.
+KERNEL unsigned ids_equal(const uint32_t *ids, uint32_t i) {
+    return _mm512_cmpeq_epi32_mask(_mm512_load_si512(ids), _mm512_set1_epi32((int)i));
+}
+
 // The row of i, where it is among the ids, anew.
 KERNEL Whole half_with(Whole half, const uint32_t *ids, uint32_t i, Whole row) {
     const __m256i eight = _mm256_load_si256((const __m256i *)ids);
@@ -167,6 +172,11 @@ KERNEL Whole all_rows_low(__m128i row) {
 
 KERNEL Whole half_of_rows(const uint64_t *table, const uint32_t *ids) {
     return _mm256_i32gather_epi64((const void *)table, _mm_load_si128((const __m128i *)ids), 8);
+}
+
+KERNEL unsigned ids_equal(const uint32_t *ids, uint32_t i) {
+    const __m256i same = _mm256_cmpeq_epi32(_mm256_load_si256((const __m256i *)ids), all((int)i));
+    return (unsigned)_mm256_movemask_ps((Real)same);
 }
 
 KERNEL Whole half_with(Whole half, const uint32_t *ids, uint32_t i, Whole row) {

@@ -16,10 +16,29 @@ typedef struct Verdict {
 
 #if defined(__AVX2__)
 
+// As many rows as there are lanes, in two registers.
+typedef struct Rows {
+    Whole low, high;
+} Rows;
+
+// The same in other order: the first two words of all rows, and their last two.
+typedef struct Split {
+    Whole first, second;
+} Split;
+
+KERNEL Split split_place(Whole row) {
+    return (Split){first_of_pairs(row, row), second_of_pairs(row, row)};
+}
+
+KERNEL Split split_rows(Rows rows) {
+    return (Split){first_of_pairs(rows.low, rows.high), second_of_pairs(rows.low, rows.high)};
+}
+
 // What all trials are looked at with.
 typedef struct Glass {
     const uint64_t *coarse;
     Whole plus, minus;           // scales of rows
+    Split split_scale;           // the same of those that are split
     Whole maybe, surely;         // bounds of neighbours that may overlap, that do
     Whole leashed, never_anchor; // the same where the first is the anchor
     int exponent;
@@ -44,6 +63,7 @@ KERNEL Glass glass_of(const bool unscaled, const Balls *balls) {
         .coarse = balls->coarse,
         .plus = all_rows(scale | 24576ull << 48),
         .minus = all_rows(scale | (65536ull - 24576) << 48),
+        .split_scale = split_place(all_rows(scale)),
         .maybe = maybe,
         .surely = surely,
         .leashed = first_and((int32_t)balls->leashed, maybe),
@@ -56,11 +76,6 @@ KERNEL Glass glass_of(const bool unscaled, const Balls *balls) {
         .off = (float)(2 * balls->room / ENERGY_UNITS),
     };
 }
-
-// As many rows as there are lanes, in two registers.
-typedef struct Rows {
-    Whole low, high;
-} Rows;
 
 KERNEL Rows rows_of(const Glass *glass, const uint32_t *ids) {
     return (Rows){half_of_rows(glass->coarse, ids), half_of_rows(glass->coarse, ids + LANES / 2)};
@@ -97,6 +112,13 @@ KERNEL Seen seen_in(const Glass *glass, const uint32_t *list, uint32_t entries) 
     Seen seen;
     for (uint32_t k = 0; k < entries / LANES; k++) seen.rows[k] = rows_of(glass, list + k * LANES);
     return seen;
+}
+
+// Is i among them?
+KERNEL bool is_seen(const uint32_t *list, uint32_t entries, uint32_t i) {
+    unsigned same = 0;
+    for (uint32_t k = 0; k < entries; k += LANES) same |= ids_equal(list + k, i);
+    return same != 0;
 }
 
 // The same when i has moved.
@@ -167,34 +189,66 @@ KERNEL void energies(const Glass *glass, const Real contact2[ENDS / 2], Real of[
     for (int k = 0; k < ENDS; k++) of[k] = least(power[k], glass->flat);
 }
 
+// Squares of coarse distances: rows that are split serve both ends of a move.
+KERNEL Whole split_apart(const bool unscaled, const Glass *glass, Split place, Split rows) {
+    Whole first = words_less(place.first, rows.first),
+          second = words_less(place.second, rows.second);
+    if (unscaled) return sums(products(first, first), products(second, second));
+    first = words_scaled(first, glass->split_scale.first);
+    second = words_scaled(second, glass->split_scale.second);
+    return sums(products(first, first), products(second, second));
+}
+
+// What a soft ball feels at both ends of its move.
+typedef struct Feeling {
+    uint32_t i, entries;
+    const uint32_t *list;
+    Split here, there;
+    Real before, after; // sums of energies, in lanes
+    bool leashed;
+} Feeling;
+
+// Adds the entries of the list from n on, of which there are two registers.
+KERNEL void feel(const bool unscaled, const bool one_size, const Glass *glass, uint32_t n,
+                 const Rows rows[2], Feeling *felt) {
+    Real of[ENDS], contact2[ENDS / 2];
+    for (uint32_t k = 0; k < 2; k++) {
+        const Split split = split_rows(rows[k]);
+        const Whole end = split_apart(unscaled, glass, felt->there, split);
+        contact2[k] = contacts2(one_size, glass, felt->i, felt->list, n + k * LANES);
+        of[2 * k] = reals(split_apart(unscaled, glass, felt->here, split));
+        of[2 * k + 1] = reals(end);
+        if (n == 0 && k == 0) felt->leashed = below(false, end, glass->leashed) & 1;
+    }
+    energies(glass, contact2, of);
+    for (uint32_t k = 0; k < 2; k++) {
+        felt->before = plus_neighbours(felt->before, of[2 * k], n + k * LANES, felt->entries);
+        felt->after = plus_neighbours(felt->after, of[2 * k + 1], n + k * LANES, felt->entries);
+    }
+}
+
 KERNEL Verdict look_at_energies(const bool unscaled, const bool one_size, const Glass *glass,
                                 uint32_t i, __m128i to, const Seen *seen, const uint32_t *list,
                                 uint32_t entries, int32_t affordable) {
-    const Whole here = all_rows(glass->coarse[i]), there = all_rows_low(to);
-    Real before = all_real(0), after = all_real(0);
-    bool leashed = false;
-    for (uint32_t n = 0; __builtin_expect(n < entries, n == 0); n += 2 * LANES) {
-        Real of[ENDS], contact2[ENDS / 2];
-        for (uint32_t k = 0; k < 2; k++) {
-            const Rows rows =
-                n < SOFT_ENTRIES ? seen->rows[n / LANES + k] : rows_of(glass, list + n + k * LANES);
-            const Whole end = apart(unscaled, glass, there, rows);
-            contact2[k] = contacts2(one_size, glass, i, list, n + k * LANES);
-            of[2 * k] = reals(apart(unscaled, glass, here, rows));
-            of[2 * k + 1] = reals(end);
-            if (n == 0 && k == 0) leashed = below(false, end, glass->leashed) & 1;
-        }
-        energies(glass, contact2, of);
-        for (uint32_t k = 0; k < 2; k++) {
-            before = plus_neighbours(before, of[2 * k], n + k * LANES, entries);
-            after = plus_neighbours(after, of[2 * k + 1], n + k * LANES, entries);
-        }
+    Feeling felt = {.i = i,
+                    .entries = entries,
+                    .list = list,
+                    .here = split_place(all_rows(glass->coarse[i])),
+                    .there = split_place(all_rows_low(to)),
+                    .before = all_real(0),
+                    .after = all_real(0)};
+    for (uint32_t n = 0; n < SOFT_ENTRIES; n += 2 * LANES) {
+        feel(unscaled, one_size, glass, n, seen->rows + n / LANES, &felt);
+    }
+    for (uint32_t n = SOFT_ENTRIES; __builtin_expect(n < entries, 0); n += 2 * LANES) {
+        const Rows rows[2] = {rows_of(glass, list + n), rows_of(glass, list + n + LANES)};
+        feel(unscaled, one_size, glass, n, rows, &felt);
     }
     float sum[2];
-    two_sums(before, after, sum);
+    two_sums(felt.before, felt.after, sum);
     const float afforded = (float)affordable * (float)(1 / ENERGY_UNITS);
     const float rise = sum[1] - sum[0], off = (sum[0] + sum[1]) * glass->doubt + glass->off;
-    return (Verdict){leashed & (rise + off <= afforded), rise - off > afforded};
+    return (Verdict){felt.leashed & (rise + off <= afforded), rise - off > afforded};
 }
 
 #endif
