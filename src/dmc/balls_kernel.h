@@ -367,8 +367,8 @@ KERNEL uint64_t move_ball(const bool has_radius, const Walk *walk, uint32_t i, u
     const uint64_t after = before ^ ((before ^ moved) & changes & -accepted);
     __m256i *at = (__m256i *)walk->ball[i].place;
     const __m256i old = _mm256_load_si256(at), all = _mm256_set1_epi64x(-(int64_t)accepted);
-    _mm256_store_si256(
-        at, _mm256_xor_si256(old, _mm256_and_si256(_mm256_xor_si256(old, place), all)));
+    _mm256_store_si256(at,
+                       _mm256_xor_si256(old, _mm256_and_si256(_mm256_xor_si256(old, place), all)));
     return walk->coarse[i] = after;
 }
 
