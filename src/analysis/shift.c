@@ -67,7 +67,10 @@ static Status put(Results *results, const Shift *shift) {
              "Time at which the function falls to a level, over that in stage %.60s; jackknife "
              "over replicas.",
              shift->from->stage);
-    snprintf(shape.unit, sizeof shape.unit, "(%.28s)/(%.28s)", to->unit, from->unit);
+    if (strcmp(to->unit, from->unit) == 0)
+        shape.unit[0] = '\0';
+    else
+        snprintf(shape.unit, sizeof shape.unit, "(%.28s)/(%.28s)", to->unit, from->unit);
     for (size_t r = 0; r < results->replicas; r++) {
         TRY(results_put_series(results, &shape, r, shift->values + r * shift->rows * LEVELS));
     }

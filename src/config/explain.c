@@ -28,7 +28,7 @@ static const struct {
     {"s", "Wall-clock seconds; durations are written with s, min, h or d, as in 10 min."},
 };
 #define COUNT(array) (sizeof(array) / sizeof *(array))
-enum { WORDS_MOST = 256, LABEL_SIZE = 128 };
+enum { WORDS_MOST = 512, LABEL_SIZE = 128 };
 
 typedef struct Label {
     char text[LABEL_SIZE];
@@ -143,15 +143,35 @@ static bool explain_unit(const char *word, FILE *out) {
     return false;
 }
 
-// Of the results: "long_time_diffusion_small" as well as "long_time_diffusion", with or without the
-// stage before it.
-static bool explain_quantity(const char *word, FILE *out) {
-    const char *slash = strrchr(word, '/');
-    const ResultMeaning *meaning = result_meaning(slash ? slash + 1 : word);
-    if (!meaning) return false;
-    fprintf(out, "%s\n  %s\n  A number among the results, from %s.\n", word, meaning->about,
-            meaning->of);
-    return true;
+// "A series among the results, in d^2, from mean_squared_displacement."
+static void explain_meaning(const char *word, const ResultMeaning *meaning, const char *of,
+                            const char *what, FILE *out) {
+    fprintf(out, "%s\n  %s\n  A %s among the results, %s%s, from %s.\n", word, meaning->about, what,
+            meaning->unit ? "in " : "without unit", meaning->unit ? meaning->unit : "", of);
+}
+
+// Of the results: "long_time_diffusion_small" as well as "long_time_diffusion"; a number, a series
+// or both.
+static bool explain_quantity(const char *name, FILE *out) {
+    const ResultMeaning *number = result_meaning(name), *series = result_series_meaning(name);
+    char source[RESULT_NAME];
+    if (number) explain_meaning(name, number, number->of, "number", out);
+    if (series) {
+        const bool made = result_series_source(source, name, series);
+        explain_meaning(name, series, made ? source : series->of, "series", out);
+    }
+    return number || series;
+}
+
+// The last part that is a result of "quiescent/pressure" or "stages/quiescent/pressure/mean", as
+// `perrin show` and results.h5 have them.
+static bool explain_path(const char *path, FILE *out) {
+    char left[2 * LABEL_SIZE];
+    snprintf(left, sizeof left, "%s", path);
+    for (char *slash; (slash = strrchr(left, '/')); *slash = '\0') {
+        if (explain_quantity(slash + 1, out)) return true;
+    }
+    return false;
 }
 
 static void explain_all(FILE *out) {
@@ -183,8 +203,8 @@ static const ObservableKind *observable_of_result(const char *name) {
     return longest;
 }
 
-static Status fail_unknown(const char *word) {
-    const char *words[WORDS_MOST];
+// The keys, names and results that one may have meant; a result's name without its *.
+static size_t words_to_ask(const char *words[WORDS_MOST], char results[WORDS_MOST][RESULT_NAME]) {
     size_t count = 0;
     for (size_t s = 0; s < section_count(); s++) {
         const Section section = section_at(s);
@@ -196,6 +216,22 @@ static Status fail_unknown(const char *word) {
     for (size_t i = 0; propagator_kinds[i] && count < WORDS_MOST; i++)
         words[count++] = propagator_kinds[i]->name;
     for (size_t i = 0; i < SHAPES && count < WORDS_MOST; i++) words[count++] = shape_names[i];
+    for (size_t i = 0; result_meaning_at(i) && count < WORDS_MOST; i++) {
+        const char *name = result_meaning_at(i)->name;
+        snprintf(results[count], RESULT_NAME, "%.*s", (int)strcspn(name, "*"), name);
+        words[count] = results[count];
+        count++;
+    }
+    for (size_t i = 0; result_series_meaning_at(i) && count < WORDS_MOST; i++) {
+        if (result_series_meaning_at(i)->of) words[count++] = result_series_meaning_at(i)->name;
+    }
+    return count;
+}
+
+static Status fail_unknown(const char *word) {
+    const char *words[WORDS_MOST];
+    char results[WORDS_MOST][RESULT_NAME];
+    const size_t count = words_to_ask(words, results);
     const ObservableKind *kind = observable_of_result(word);
     if (kind)
         return status_fail(
@@ -233,10 +269,10 @@ Status config_explain(const char *word, FILE *out) {
         explain_all(out);
         return OK;
     }
-    const bool quantity = explain_quantity(word, out);
     if (strchr(word, '/'))
-        return quantity || explain_unit(word, out) ? OK : explain_result(word, out);
-    bool found = explain_shape(word, out) || quantity;
+        return explain_path(word, out) || explain_unit(word, out) ? OK : explain_result(word, out);
+    bool found = explain_quantity(word, out);
+    found = explain_shape(word, out) || found;
     found = explain_unit(word, out) || found;
     for (size_t s = 0; s < section_count(); s++) {
         const Section section = section_at(s);

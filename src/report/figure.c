@@ -125,20 +125,6 @@ static void put_coordinate(Text *title, const ResultAxis *axis, size_t index) {
     notation_unit(title, axis->unit);
 }
 
-// What tells this curve from the others: its place on all axes but x that have several.
-static void title_curve(Curve *curve, const Figure *figure, const size_t index[RESULT_AXES]) {
-    Text title = {0};
-    for (size_t i = 0; i < figure->series->axes; i++) {
-        const ResultAxis *axis = &figure->series->axis[i];
-        const bool chosen = figure->kind && figure->kind->only && axis->labels &&
-                            strcmp(axis->labels[index[i]], figure->kind->only) == 0;
-        if (axis == figure->x || axis == figure->y || axis->count < 2 || chosen) continue;
-        put_coordinate(&title, axis, index[i]);
-    }
-    snprintf(curve->title, sizeof curve->title, "%s", text_words(&title));
-    text_free(&title);
-}
-
 static bool axis_has(const ResultAxis *axis, const char *label) {
     for (size_t i = 0; axis->labels && i < axis->count; i++) {
         if (strcmp(axis->labels[i], label) == 0) return true;
@@ -146,13 +132,37 @@ static bool axis_has(const ResultAxis *axis, const char *label) {
     return false;
 }
 
-// A curve begins at this element: first along x, and on the chosen label of an axis that has it.
+// The only label of an axis that is drawn: the one that the kind says, or the sum over species
+// where there would be too many curves. NULL: all are.
+static const char *only_label(const Figure *figure, const ResultAxis *axis) {
+    static const char *const sums[] = {"all", "total"};
+    if (figure->kind && figure->kind->only && axis_has(axis, figure->kind->only))
+        return figure->kind->only;
+    for (size_t i = 0; figure->sums_alone && i < sizeof sums / sizeof *sums; i++) {
+        if (axis_has(axis, sums[i])) return sums[i];
+    }
+    return NULL;
+}
+
+// What tells this curve from the others: its place on all axes but x that have several.
+static void title_curve(Curve *curve, const Figure *figure, const size_t index[RESULT_AXES]) {
+    Text title = {0};
+    for (size_t i = 0; i < figure->series->axes; i++) {
+        const ResultAxis *axis = &figure->series->axis[i];
+        if (axis == figure->x || axis == figure->y || axis->count < 2) continue;
+        if (!only_label(figure, axis)) put_coordinate(&title, axis, index[i]);
+    }
+    snprintf(curve->title, sizeof curve->title, "%s", text_words(&title));
+    text_free(&title);
+}
+
+// A curve begins at this element: first along x, and on the only label of an axis that has one.
 static bool begins_curve(const Figure *figure, const size_t index[RESULT_AXES]) {
     for (size_t i = 0; i < figure->series->axes; i++) {
         const ResultAxis *axis = &figure->series->axis[i];
         if ((axis == figure->x || axis == figure->y) && index[i] != 0) return false;
-        if (!figure->kind || !figure->kind->only || !axis_has(axis, figure->kind->only)) continue;
-        if (strcmp(axis->labels[index[i]], figure->kind->only) != 0) return false;
+        const char *only = only_label(figure, axis);
+        if (only && strcmp(axis->labels[index[i]], only) != 0) return false;
     }
     return true;
 }
@@ -172,19 +182,41 @@ static size_t points_from(const Figure *figure, size_t first) {
     return points;
 }
 
+// Whether a curve with numbers begins at this element, and where that is on the axes.
+static bool curve_at(const Figure *figure, size_t element, size_t index[RESULT_AXES]) {
+    show_indices(figure->series, element, index);
+    return begins_curve(figure, index) && points_from(figure, element) > 0;
+}
+
+static size_t count_curves(const Figure *figure) {
+    size_t count = 0, index[RESULT_AXES];
+    for (size_t element = 0; element < figure->series->size; element++)
+        count += curve_at(figure, element, index);
+    return count;
+}
+
+// Of more than there is room for, those of the sums, and of these some from the first to the last.
 static void choose_curves(Figure *figure) {
-    for (size_t element = 0; element < figure->series->size; element++) {
-        size_t index[RESULT_AXES];
-        show_indices(figure->series, element, index);
-        if (!begins_curve(figure, index) || points_from(figure, element) == 0) continue;
-        if (figure->curve_count == FIGURE_CURVES) {
-            figure->left_out++;
-            continue;
-        }
+    const size_t all = count_curves(figure);
+    figure->sums_alone = all > FIGURE_CURVES;
+    size_t count = count_curves(figure);
+    if (count == 0 || count == all) { // there are no sums
+        figure->sums_alone = false;
+        count = all;
+    }
+    const size_t most = count < FIGURE_CURVES ? count : FIGURE_CURVES;
+    size_t seen = 0, index[RESULT_AXES];
+    for (size_t element = 0; figure->curve_count < most; element++) {
+        if (!curve_at(figure, element, index)) continue;
+        const size_t drawn = figure->curve_count;
+        const bool its_turn = most < 2 || seen == drawn * (count - 1) / (most - 1);
+        seen++;
+        if (!its_turn) continue;
         Curve *curve = &figure->curve[figure->curve_count++];
         curve->first = element;
         title_curve(curve, figure, index);
     }
+    figure->left_out = all - most;
 }
 
 static size_t stride_of(const ResultSeries *series, size_t axis) {
@@ -301,6 +333,7 @@ void figure_caption(Text *text, const Figure *figure) {
     } else if (!figure_is_theory(figure)) {
         text_put(text, " One replica, hence no errors.");
     }
+    if (figure->sums_alone && !figure->y) text_put(text, " Of all species together.");
     if (figure->left_out > 0 && !figure->y) {
         text_add(text, " %zu further curve%s in the numbers.", figure->left_out,
                  figure->left_out == 1 ? " is" : "s are");

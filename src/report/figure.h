@@ -70,6 +70,7 @@ typedef struct Figure {
     size_t stride;       // elements from one point to the next along x
     const ResultAxis *y; // of a picture whose colour is the value; NULL for curves
     size_t y_stride;
+    bool sums_alone;    // curves of single species are left out: there would be too many
     size_t curve_count; // drawn
     size_t left_out;    // further curves, not drawn
     Curve curve[FIGURE_CURVES];

@@ -81,15 +81,20 @@ static void put_looks(Text *script, const Figure *figure) {
     }
 }
 
-// Many names would lie on the curves: they go below, in columns as wide as the longest, or are
-// written small where a second panel is below.
+static const size_t HEIGHT = 480, RATIO_HEIGHT = 720; // of one panel and of two, in pixels
+
+static size_t panels_height(const Figure *figure) {
+    return has_ratio(figure) ? RATIO_HEIGHT : HEIGHT;
+}
+
+// Many names would lie on the curves: they go below, in columns as wide as the longest.
 typedef struct Legend {
-    bool below, small;
+    bool below;
     size_t columns, height; // in pixels
 } Legend;
 
 static Legend legend_of(const Figure *figure) {
-    enum { KEY_MOST = 4, WIDTH = 700, LETTER = 8, SAMPLE = 70, ROW = 20 };
+    enum { KEY_MOST = 4, WIDTH = 700, LETTER = 8, SAMPLE = 70, ROW = 26 };
     size_t longest = 1, names = figure->curve_count;
     for (size_t c = 0; c < figure->curve_count; c++) {
         const size_t letters = utf8_letters(figure->curve[c].title);
@@ -100,25 +105,26 @@ static Legend legend_of(const Figure *figure) {
     }
     const size_t fit = WIDTH / (longest * LETTER + SAMPLE), columns = fit > 1 ? fit : 1;
     const size_t rows = (names + columns) / columns; // and one for what lies beside
-    const bool many = names > KEY_MOST, below = many && !has_ratio(figure);
-    return (Legend){below, many && !below, columns, below ? rows * ROW : 0};
+    const bool below = names > KEY_MOST;
+    return (Legend){below, columns, below ? rows * ROW : 0};
 }
 
 static void put_key(Text *script, const Figure *figure) {
     const Legend legend = legend_of(figure);
     const char *key = figure->kind && figure->kind->key ? figure->kind->key : "above";
-    if (legend.below)
-        text_add(script,
-                 "set key below height 1 maxcols %zu font ',14' noenhanced samplen 2 spacing 1.2\n",
-                 legend.columns);
+    if (!legend.below) {
+        text_add(script, "set key %s noenhanced samplen 2 spacing 1.2\n", key);
+        return;
+    }
+    if (has_ratio(figure)) // gnuplot's own place below would be below the upper panel
+        text_add(script, "set key at screen 0.5575, screen %.4f center top horizontal",
+                 (double)legend.height / (double)(RATIO_HEIGHT + legend.height));
     else
-        text_add(script, "set key %s noenhanced %s\n", key,
-                 legend.small ? "Left reverse font ',11' samplen 1.5 spacing 0.8"
-                              : "samplen 2 spacing 1.2");
+        text_put(script, "set key below height 1");
+    text_add(script, " maxcols %zu font ',14' noenhanced samplen 2 spacing 1.2\n", legend.columns);
 }
 
 static void put_head(Text *script, const Figure *figure) {
-    static const size_t HEIGHT = 480, RATIO_HEIGHT = 720; // of two panels
     text_add(
         script,
         "# Draws %s.svg from %s.csv: gnuplot %s.gp\n"
@@ -130,9 +136,8 @@ static void put_head(Text *script, const Figure *figure) {
         "set border linewidth 1.2\n"
         "set tics scale 0.8\n"
         "set style fill transparent solid 0.25 noborder\n",
-        figure->name, figure->name, figure->name,
-        has_ratio(figure) ? RATIO_HEIGHT : HEIGHT + legend_of(figure).height, figure->name,
-        figure->name, figure->name);
+        figure->name, figure->name, figure->name, panels_height(figure) + legend_of(figure).height,
+        figure->name, figure->name, figure->name);
     put_looks(script, figure);
     put_key(script, figure);
 }
@@ -297,17 +302,28 @@ static void put_references(Text *script, const Figure *figure) {
     text_put(script, "\n");
 }
 
-// Two panels over one x axis; the places are fractions of the picture's height.
+// Where this share of the height of the panels is in the picture, a legend being below them.
+static double height_of(const Figure *figure, double share) {
+    const double legend = (double)legend_of(figure).height;
+    return (legend + share * (double)RATIO_HEIGHT) / (legend + (double)RATIO_HEIGHT);
+}
+
+static void put_panel(Text *script, const Figure *figure, double top, double bottom) {
+    text_add(script, "set tmargin at screen %.4f\nset bmargin at screen %.4f\n",
+             height_of(figure, top), height_of(figure, bottom));
+}
+
+// Two panels over one x axis.
 static void put_panels(Text *script, const Figure *figure) {
     text_put(script, "set multiplot\n"
-                     "set lmargin at screen 0.145\nset rmargin at screen 0.97\n"
-                     "set tmargin at screen 0.965\nset bmargin at screen 0.42\n"
-                     "unset xlabel\nset format x ''\n"
+                     "set lmargin at screen 0.145\nset rmargin at screen 0.97\n");
+    put_panel(script, figure, 0.965, 0.42);
+    text_put(script, "unset xlabel\nset format x ''\n"
                      "plot \\\n");
     put_curves(script, figure);
     put_references(script, figure);
-    text_put(script, "set tmargin at screen 0.39\nset bmargin at screen 0.12\n"
-                     "set format x '10^{%T}'\nunset logscale y\nset format y '%g'\n");
+    put_panel(script, figure, 0.39, 0.12);
+    text_put(script, "set format x '10^{%T}'\nunset logscale y\nset format y '%g'\n");
     put_x_label(script, figure);
     put_label(script, "y", figure->kind->ratio, "");
     text_put(script, "set yrange [0:*]\nset offsets 0, 0, graph 0.1, 0\n"

@@ -85,8 +85,10 @@ static bool is_one_over_a_letter(const char *unit) {
 
 static const struct {
     const char *name, *letter;
-} GREEK[] = {{"alpha", "α"}, {"beta", "β"}, {"gamma", "γ"}, {"eta", "η"},   {"lambda", "λ"},
-             {"phi", "φ"},   {"psi", "ψ"},  {"rho", "ρ"},   {"sigma", "σ"}, {"tau", "τ"}};
+} GREEK[] = {{"alpha", "α"}, {"beta", "β"},  {"gamma", "γ"}, {"delta", "δ"},  {"epsilon", "ε"},
+             {"eta", "η"},   {"theta", "θ"}, {"kappa", "κ"}, {"lambda", "λ"}, {"mu", "μ"},
+             {"nu", "ν"},    {"xi", "ξ"},    {"pi", "π"},    {"rho", "ρ"},    {"sigma", "σ"},
+             {"tau", "τ"},   {"phi", "φ"},   {"chi", "χ"},   {"psi", "ψ"},    {"omega", "ω"}};
 
 static bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');

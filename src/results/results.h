@@ -62,15 +62,22 @@ typedef struct Results {
     ResultCounter *health;
 } Results;
 
-// What a quantity is, whatever the run: a row of meanings.def.
+// What a quantity or series is, whatever the run: a row of meanings.def or of series.def.
 typedef struct ResultMeaning {
-    const char *name; // with * at the end if a species, a pair or a direction may follow
-    const char *of;   // the observable
+    const char *name; // of a number with * at the end if a species, a pair or a direction may
+                      // follow; of a series with * in front if it is made of another
+    const char *of;   // the observable; NULL of a series that is made of another
     const char *about;
+    const char *unit; // "kT/d^2 or kT/d^3", NULL of a pure number
 } ResultMeaning;
 
 const ResultMeaning *result_meaning(const char *quantity); // the longest that fits; NULL if none
 const ResultMeaning *result_meaning_at(size_t row);        // NULL past the last
+const ResultMeaning *result_series_meaning(const char *name);
+const ResultMeaning *result_series_meaning_at(size_t row);
+// The series that this one is made of, if the row says so: self_scattering of
+// self_scattering_kohlrausch_time.
+bool result_series_source(char source[RESULT_NAME], const char *name, const ResultMeaning *row);
 
 Status results_create(Results **out, size_t replicas);
 void results_free(Results *results);

@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # examples.sh PROGRAM EXAMPLE: the run file of an example passes its checks as it is, and runs to its
-# end with two replicas and a quarter of every stage's time; the report has no empty place.
+# end with two replicas and a quarter of every stage's time; the report has no empty place, and
+# `perrin explain` knows all that it measured.
 set -eu
 perrin=$1 example=$2
 work=$(mktemp -d)
@@ -31,3 +32,25 @@ if [ -n "$(command -v gnuplot)" ] && ! grep -q '<figure>' "$work/run/report.html
     echo "the report has no figure"
     exit 1
 fi
+
+# Of every number and series its meaning and unit can be asked for without the run. Stresses of a
+# schematic model are in units of its modulus.
+"$perrin" show "$work/run" --json | awk -F'"' '
+    /^    "[^"]*": \{/ && $2 ~ "/" {name = $2}
+    name && match($0, /"unit": "[^"]*"/) {
+        print name, substr($0, RSTART + 9, RLENGTH - 10)
+        name = ""
+    }' >"$work/names"
+test -s "$work/names"
+while read -r name unit; do
+    if ! "$perrin" explain "$name" >"$work/said" 2>&1; then
+        echo "perrin explain does not know $name"
+        exit 1
+    fi
+    case $name in schematic/*) continue ;; esac
+    if ! grep -qF -e " ${unit:-without unit}," -e " $unit or " "$work/said"; then
+        echo "perrin explain says another unit of $name than its run, $unit:"
+        cat "$work/said"
+        exit 1
+    fi
+done <"$work/names"

@@ -405,6 +405,16 @@ START_TEST(every_key_of_every_table_can_be_explained) {
         ck_assert_int_eq(config_explain(name, nowhere), OK);
         ck_assert_ptr_eq(result_meaning(name), result_meaning_at(k));
     }
+    for (size_t k = 0; result_series_meaning_at(k); k++) {
+        const ResultMeaning *row = result_series_meaning_at(k);
+        char name[RESULT_NAME];
+        snprintf(name, sizeof name, "%s%s", row->of ? "" : "self_scattering",
+                 row->name + (row->of ? 0 : 1));
+        ck_assert_int_eq(config_explain(name, nowhere), OK);
+        ck_assert_ptr_eq(result_series_meaning(name), row);
+    }
+    ck_assert_ptr_null(result_series_meaning("gibberish_scaled"));
+    ck_assert_ptr_null(result_series_meaning("_scaled"));
     ck_assert_str_eq(result_meaning("long_time_diffusion_y_big")->name, "long_time_diffusion*");
     ck_assert_ptr_null(result_meaning("long_time_diffusions"));
     ck_assert_ptr_null(result_meaning("wake_length_big"));

@@ -70,6 +70,9 @@ START_TEST(units_are_set_with_raised_and_lowered_digits) {
     ck_assert_str_eq(text_words(&text),
                      "σ_xy, G -> (t/t0)^-a, exp(-(t/τ)^β), method, φ_c; betas, beat");
     text_free(&text);
+    notation_unit(&text, "chi_4, delta(xi), 2 pi/kappa, mu nu; pit, beta-scaling, zeta");
+    ck_assert_str_eq(text_words(&text), "χ_4, δ(ξ), 2 π/κ, μ ν; pit, β-scaling, zeta");
+    text_free(&text);
 }
 END_TEST
 
@@ -491,6 +494,83 @@ START_TEST(a_limit_is_drawn_over_its_half_of_the_axis) {
 }
 END_TEST
 
+// A sweep over `points` packing fractions of a mean squared displacement, which is compared with
+// free diffusion; of two species and their sum, or of one.
+static Results *sweep_of_displacements(size_t points, size_t species) {
+    static const char *const names[] = {"small", "big", "all"}, *const direction[] = {"total"};
+    const double t[] = {0.1, 1};
+    double phi[12], values[12 * 3 * 2];
+    for (size_t p = 0; p < points; p++) phi[p] = 0.5 + 0.01 * (double)p;
+    for (size_t i = 0; i < 12 * 3 * 2; i++) values[i] = 1 + (double)i;
+    ResultSeries shape = {
+        .stage = "rest",
+        .observable = "mean_squared_displacement",
+        .unit = "d^2",
+        .about = "How far.",
+        .axes = 4,
+        .axis = {{.name = "packing_fraction", .unit = "", .count = points, .values = phi},
+                 {.name = "species", .unit = "", .count = species, .labels = names},
+                 {.name = "direction", .unit = "", .count = 1, .labels = direction},
+                 {.name = "time", .unit = "d^2/D0", .count = 2, .values = t}}};
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    results_put_series(results, &shape, 0, values);
+    strcpy(shape.observable, "free_displacement");
+    results_put_series(results, &shape, 0, values);
+    return results;
+}
+
+START_TEST(of_too_many_curves_those_of_all_species_from_first_to_last_are_drawn) {
+    Results *results = sweep_of_displacements(4, 3);
+    Figure figure = figure_of(results, &results->series[0]);
+    ck_assert_uint_eq(figure.curve_count, 4);
+    ck_assert_uint_eq(figure.left_out, 8);
+    ck_assert_str_eq(figure.curve[3].title, "packing fraction = 0.53");
+    ck_assert_uint_eq(figure.curve[3].first, (3 * 3 + 2) * 2); // of all
+    Text caption = {0};
+    figure_caption(&caption, &figure);
+    ck_assert_ptr_nonnull(strstr(text_words(&caption), "Of all species together. 8 further"));
+    text_free(&caption);
+    results_free(results);
+
+    results = sweep_of_displacements(12, 1);
+    figure = figure_of(results, &results->series[0]);
+    ck_assert_uint_eq(figure.curve_count, FIGURE_CURVES);
+    ck_assert_uint_eq(figure.left_out, 4);
+    ck_assert(!figure.sums_alone);
+    ck_assert_uint_eq(figure.curve[0].first, 0);
+    ck_assert_uint_eq(figure.curve[FIGURE_CURVES - 1].first, 11 * 2);
+    results_free(results);
+
+    results = sweep_of_displacements(2, 3); // few enough: each species has its own
+    figure = figure_of(results, &results->series[0]);
+    ck_assert_uint_eq(figure.curve_count, 6);
+    ck_assert_str_eq(figure.curve[1].title, "packing fraction = 0.5, big");
+    results_free(results);
+}
+END_TEST
+
+START_TEST(many_names_stand_below_two_panels_and_not_on_them) {
+    Results *results = sweep_of_displacements(2, 3);
+    Figure figure = figure_of(results, &results->series[0]);
+    Text script = {0};
+    figure_script(&script, &figure); // six names and that of free diffusion, in two columns
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "svg size 760,824 "));
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "set key at screen 0.5575, screen 0.1262 "));
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "set bmargin at screen 0.2311\n"));
+    text_free(&script);
+    results_free(results);
+
+    results = sweep_of_displacements(1, 3);
+    figure = figure_of(results, &results->series[0]);
+    figure_script(&script, &figure);
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "svg size 760,720 "));
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "set key left top "));
+    text_free(&script);
+    results_free(results);
+}
+END_TEST
+
 START_TEST(a_series_over_a_plane_is_drawn_as_a_picture) {
     Results *results = NULL;
     ck_assert_int_eq(results_create(&results, 1), OK);
@@ -581,6 +661,8 @@ int main(void) {
     tcase_add_test(tests, an_observable_without_a_row_is_drawn_by_the_plain_rule);
     tcase_add_test(tests, a_figure_of_a_sweep_says_which_points_it_lacks);
     tcase_add_test(tests, a_limit_is_drawn_over_its_half_of_the_axis);
+    tcase_add_test(tests, of_too_many_curves_those_of_all_species_from_first_to_last_are_drawn);
+    tcase_add_test(tests, many_names_stand_below_two_panels_and_not_on_them);
     tcase_add_test(tests, a_series_over_a_plane_is_drawn_as_a_picture);
     tcase_add_test(tests, a_caption_says_where_the_only_number_of_an_axis_is);
     tcase_add_test(tests, gnuplot_takes_quoted_words_literally);
