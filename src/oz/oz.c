@@ -2,6 +2,7 @@
 // Which way leads to a structure, and what all ways have in common.
 #include "oz/oz.h"
 
+#include "base/constants.h"
 #include "base/memory.h"
 #include "numerics/small.h"
 #include "oz/inside.h"
@@ -218,4 +219,16 @@ Status oz_solve(Oz *oz, double packing_fraction, const Structure **out) {
 
 OzEffort oz_effort(const Oz *oz) {
     return oz->effort;
+}
+
+double oz_compressibility_factor(const Structure *structure) {
+    const Mixture *m = &structure->mixture;
+    const double volume = m->dimension == 2 ? PI / 2 : 2 * PI / 3;
+    double sum = 0;
+    for (size_t a = 0; a < m->species; a++) {
+        for (size_t b = 0; b < m->species; b++)
+            sum += m->fraction[a] * m->fraction[b] * pow(mixture_contact(m, a, b), m->dimension) *
+                   structure->contact[mixture_pair(m->species, a, b)];
+    }
+    return 1 + structure->density * volume * sum;
 }

@@ -47,6 +47,11 @@ void oz_free(Oz *oz);
 // not converge, or if no fluid is stable there.
 Status oz_solve(Oz *oz, double packing_fraction, const Structure **out);
 
+// P V/(N kT) by the virial route: 1 + rho v sum_ab x_a x_b d_ab^dim g_ab(d_ab), v = pi/2 in 2D and
+// 2 pi/3 in 3D (Hansen & McDonald, Theory of Simple Liquids, eq. 2.5.26). NaN without contact
+// values.
+double oz_compressibility_factor(const Structure *structure);
+
 // What the last solution took: iterations, and the largest residual of the closure that is left. On
 // the way to it: the packing fraction that these are of, and the last that was solved, 0 if none.
 typedef struct OzEffort {

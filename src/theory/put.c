@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -109,6 +110,22 @@ Status put_each(Results *results, const TheoryPlan *plan, const char *name, cons
                                0, values[a]));
     }
     return OK;
+}
+
+Status put_contacts(Results *results, const TheoryPlan *plan, const Structure *structure) {
+    if (isnan(structure->contact[0])) return OK;
+    for (size_t a = 0; a < plan->species_count; a++) {
+        for (size_t b = a; b < plan->species_count; b++) {
+            char name[RESULT_NAME];
+            snprintf(name, sizeof name, "contact_value_%s_%s", plan->species[a].name,
+                     plan->species[b].name);
+            TRY(put_number(results, name, "", "Pair distribution at contact.",
+                           structure->contact[mixture_pair(plan->species_count, a, b)]));
+        }
+    }
+    return put_number(results, "compressibility_factor_contact", "",
+                      "P V/(N kT) from the pair distributions at contact.",
+                      oz_compressibility_factor(structure));
 }
 
 Status put_number(Results *results, const char *name, const char *unit, const char *about,

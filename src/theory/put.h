@@ -3,6 +3,7 @@
 // only.
 #pragma once
 
+#include "oz/oz.h"
 #include "theory/theory.h"
 
 // Series on the axes pair and wave_number, values [pair][count].
@@ -16,6 +17,9 @@ Status put_each(Results *results, const TheoryPlan *plan, const char *name, cons
                 const char *about, const double *values);
 Status put_number(Results *results, const char *name, const char *unit, const char *about,
                   double value);
+// Pair distributions at contact and the pressure that follows from them, unless the closed form has
+// none.
+Status put_contacts(Results *results, const TheoryPlan *plan, const Structure *structure);
 // One value of several that together say the error.
 Status put_slot(Results *results, const char *name, const char *about, size_t slot, double value);
 Status put_curve(Results *results, const char *name, const char *about, const char *unit_of_time,

@@ -193,6 +193,7 @@ static Status solve_structure(Theory *theory, Results *results) {
             results, "separation_parameter", "", "sigma = C (phi - phi_c)/phi_c of the state.",
             theory->critical->slope * (packing_fraction / theory->critical->packing_fraction - 1)));
     if (!wants(theory, THEORY_STRUCTURE)) return OK;
+    TRY(put_contacts(results, plan, s));
     TRY(put_pairs(results, plan, "structure_factor",
                   "Partial structure factors S_ab(q); total: their sum over all ordered pairs.",
                   s->wave_number, s->count, s->factor));

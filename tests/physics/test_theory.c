@@ -102,6 +102,37 @@ START_TEST(the_total_is_the_sum_over_ordered_pairs) {
 }
 END_TEST
 
+// Percus-Yevick: spheres by the virial route have Z = (1 + 2 f + 3 f^2)/(1 - f)^2; discs against
+// another program, whose equal discs are good to 3e-4 and whose mixture is to 3e-3.
+START_TEST(contact_values_and_their_pressure) {
+    TheoryPlan plan = plan_of(1u << THEORY_STRUCTURE);
+    plan.packing_fraction = 0.3;
+    plan.species_count = 1;
+    plan.species[0] = (TheorySpecies){"all", 2, 1, 1};
+    Results *results = run(&plan);
+    ck_assert_double_eq_tol(number(results, "contact_value_all_all"), 1.15 / 0.49, 1e-9);
+    ck_assert_double_eq_tol(number(results, "compressibility_factor_contact"), 1.87 / 0.49, 1e-9);
+    results_free(results);
+
+    plan.dimension = 2;
+    results = run(&plan);
+    ck_assert_double_eq_tol(number(results, "contact_value_all_all"), 1.7454, 3e-4 * 1.7454);
+    ck_assert_double_eq_tol(number(results, "compressibility_factor_contact"),
+                            1 + 2 * 0.3 * number(results, "contact_value_all_all"), 1e-12);
+    results_free(results);
+
+    plan.packing_fraction = 0.5;
+    plan.species_count = 2;
+    plan.species[0] = (TheorySpecies){"small", 1, 0.5, 1};
+    plan.species[1] = (TheorySpecies){"big", 1.4, 0.5, 1};
+    results = run(&plan);
+    ck_assert_double_eq_tol(number(results, "contact_value_small_small"), 2.8047, 3e-3 * 2.8);
+    ck_assert_double_eq_tol(number(results, "contact_value_small_big"), 2.9102, 3e-3 * 2.9);
+    ck_assert_double_eq_tol(number(results, "contact_value_big_big"), 3.0384, 3e-3 * 3.0);
+    results_free(results);
+}
+END_TEST
+
 START_TEST(a_fluid_keeps_nothing) {
     TheoryPlan plan = plan_of(1u << THEORY_FORMS);
     plan.packing_fraction = 0.4;
@@ -156,6 +187,7 @@ int main(void) {
     tcase_add_test(tests, a_glass_has_all_that_is_asked_for);
     tcase_add_test(tests, a_glass_has_a_flow_curve_and_a_maximum_before_it);
     tcase_add_test(tests, the_total_is_the_sum_over_ordered_pairs);
+    tcase_add_test(tests, contact_values_and_their_pressure);
     tcase_add_test(tests, a_fluid_keeps_nothing);
     tcase_add_test(tests, a_fluid_diffuses_in_the_end);
     suite_add_tcase(suite, tests);
