@@ -239,5 +239,6 @@ int main(void) {
     scenes_of(2, "0.79");
     scenes_of(3, "0.50");
     size_of(10000);
+    size_of(100000);
     return 0;
 }

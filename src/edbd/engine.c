@@ -17,52 +17,64 @@ static const double MARGIN_DIFFUSIVE = 2.5, MARGIN_BALLISTIC = 4.5;
 static const double BOX_DIAMETERS = 2.2; // shortest edge, in largest diameters
 static const double FLIGHT_MOST = 0.05;  // thermal flight in a window, in d
 static const int64_t PARTICLES_MOST = 1 << 28;
+// Particles, by measurement: what fewer of them need is near in the cache anyway.
+static const size_t FETCHES_FROM = 32768;
 static const double BUCKETS = 25; // per particle in a time of d sqrt(m/kT): one per event, about
 
-static Status allocate_motion(Motion *motion, int dimension, size_t slots) {
-    for (int a = 0; a < dimension; a++) {
-        TRY(NEW_ARRAY(motion->place[a], slots));
-        TRY(NEW_ARRAY(motion->velocity[a], slots));
-    }
-    return OK;
+void *engine_room_take(Room *room, size_t bytes) {
+    // Arrays that begin at the same place of a page would contend for the same lines of the cache.
+    static const size_t APART = 5 * MEMORY_ALIGNMENT;
+    void *array = room->base ? room->base + room->used : NULL;
+    room->used += (bytes + MEMORY_ALIGNMENT - 1) / MEMORY_ALIGNMENT * MEMORY_ALIGNMENT + APART;
+    return array;
 }
 
-static Status allocate_slots(Engine *engine) {
+static void take_motion(Room *room, Motion *motion, int dimension, size_t slots) {
+    for (int a = 0; a < dimension; a++) {
+        TAKE_ARRAY(room, motion->place[a], slots);
+        TAKE_ARRAY(room, motion->velocity[a], slots);
+    }
+}
+
+static void take_room(Engine *engine) {
+    Room *room = &engine->room;
     const size_t slots = engine->slots;
-    TRY(allocate_motion(&engine->now, engine->dimension, slots));
-    TRY(allocate_motion(&engine->spare, engine->dimension, slots));
-    TRY(NEW_ARRAY(engine->sketch, slots * engine->row));
-    TRY(NEW_ARRAY(engine->id, slots));
-    TRY(NEW_ARRAY(engine->spare_id, slots));
-    TRY(NEW_ARRAY(engine->radius, slots));
-    TRY(NEW_ARRAY(engine->mass, slots));
-    TRY(NEW_ARRAY(engine->thermal, slots));
-    TRY(NEW_ARRAY(engine->stamp, slots));
+    take_motion(room, &engine->now, engine->dimension, slots);
+    take_motion(room, &engine->spare, engine->dimension, slots);
+    TAKE_ARRAY(room, engine->sketch, slots * engine->row);
+    TAKE_ARRAY(room, engine->id, slots);
+    TAKE_ARRAY(room, engine->spare_id, slots);
+    TAKE_ARRAY(room, engine->radius, slots);
+    TAKE_ARRAY(room, engine->mass, slots);
+    TAKE_ARRAY(room, engine->thermal, slots);
+    TAKE_ARRAY(room, engine->stamp, slots);
+    TAKE_ARRAY(room, engine->bucket, engine->buckets);
     for (int a = 0; a < engine->dimension; a++) {
-        TRY(NEW_ARRAY(engine->normals[a], slots));
-        TRY(NEW_ARRAY(engine->snapshot.image[a], engine->count));
+        TAKE_ARRAY(room, engine->normals[a], slots);
+        TAKE_ARRAY(room, engine->snapshot.image[a], engine->count);
     }
     for (int a = 0; a <= engine->dimension; a++) {
-        TRY(NEW_ARRAY(engine->column[a], slots + BLOCK));
-        TRY(NEW_ARRAY(engine->lined[a], slots + 2 * BLOCK));
+        TAKE_ARRAY(room, engine->column[a], slots + BLOCK);
+        TAKE_ARRAY(room, engine->lined[a], slots + 2 * BLOCK);
     }
-    TRY(NEW_ARRAY(engine->lined_row, slots + 2 * BLOCK));
-    return OK;
+    TAKE_ARRAY(room, engine->lined_row, slots + 2 * BLOCK);
+    list_take_room(engine);
 }
 
 static Status allocate(Engine *engine) {
     const size_t count = engine->count;
     engine->slots = (count / BLOCK + 1) * BLOCK;
-    TRY(allocate_slots(engine));
-    TRY(NEW_ARRAY(engine->thermal_of, count));
+    engine->fetches = count >= FETCHES_FROM;
     const double collisions = BUCKETS * engine->settings.window * (double)count;
     for (engine->buckets = 64; engine->buckets < collisions;) engine->buckets *= 2;
     engine->buckets_per_time = engine->buckets / engine->settings.window;
     engine->half_per_window = 0.5 / engine->settings.window;
-    TRY(NEW_ARRAY(engine->bucket, engine->buckets));
+    take_room(engine); // to measure it
+    TRY(NEW_ARRAY(engine->room.base, engine->room.used));
+    engine->room.used = 0;
+    take_room(engine);
     engine->event_capacity = (uint32_t)(count + 64);
-    TRY(NEW_ARRAY(engine->events, engine->event_capacity));
-    return list_create(engine);
+    return NEW_ARRAY(engine->events, engine->event_capacity);
 }
 
 static const EngineKernel *kernel_of(int dimension) {
@@ -82,8 +94,10 @@ static void take_in(Engine *engine) {
             engine->now.velocity[a][i] = state->velocity[a][i];
         }
         engine->largest = fmax(engine->largest, state->diameter[i]);
-        engine->thermal_of[i] = 1 / sqrt(state->mass[i]);
-        engine->fastest = fmax(engine->fastest, engine->thermal_of[i]);
+        engine->radius[i] = state->diameter[i] / 2;
+        engine->mass[i] = state->mass[i];
+        engine->thermal[i] = 1 / sqrt(state->mass[i]);
+        engine->fastest = fmax(engine->fastest, engine->thermal[i]);
     }
 }
 
@@ -175,35 +189,9 @@ Status engine_create(Engine **out, const EngineSettings *settings, State *state,
     return OK;
 }
 
-static void free_motion(Motion *motion) {
-    for (int a = 0; a < 3; a++) {
-        memory_free(motion->place[a]);
-        memory_free(motion->velocity[a]);
-    }
-}
-
 void engine_free(Engine *engine) {
     if (!engine) return;
-    free_motion(&engine->now);
-    free_motion(&engine->spare);
-    memory_free(engine->sketch);
-    memory_free(engine->id);
-    memory_free(engine->spare_id);
-    memory_free(engine->radius);
-    memory_free(engine->mass);
-    memory_free(engine->thermal);
-    memory_free(engine->thermal_of);
-    memory_free(engine->stamp);
-    for (int a = 0; a < 4; a++) {
-        memory_free(engine->column[a]);
-        memory_free(engine->lined[a]);
-    }
-    memory_free(engine->lined_row);
-    for (int a = 0; a < 3; a++) {
-        memory_free(engine->normals[a]);
-        memory_free(engine->snapshot.image[a]);
-    }
-    memory_free(engine->bucket);
+    memory_free(engine->room.base);
     memory_free(engine->events);
     list_free(engine);
     memory_free(engine);
@@ -465,7 +453,7 @@ size_t engine_memory(const System *system) {
     static const double pairs[2] = {3.5, 6.5}, neighbours[2] = {8, 16};
     const int three = system->dimension == 3;
     const double axes = 6 * sizeof(double) + 4 * sizeof(uint32_t); // of each
-    const double arrays = (double)system->dimension * axes + 4 * sizeof(double) +
+    const double arrays = (double)system->dimension * axes + 3 * sizeof(double) +
                           ((three ? ROW_3D : ROW_2D) + 11) * sizeof(uint32_t) + sizeof(Event);
     const double lists = pairs[three] * (6 * sizeof(uint32_t) + 2 * sizeof(float)) +
                          neighbours[three] * (sizeof(uint32_t) + sizeof(float));

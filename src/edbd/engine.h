@@ -86,6 +86,18 @@ typedef struct Snapshot {
 
 typedef struct EngineKernel EngineKernel;
 
+// One piece of memory for all arrays whose sizes do not change: large enough for huge pages where
+// each of them is not. Measured first: without a base.
+typedef struct Room {
+    char *base;
+    size_t used; // bytes
+} Room;
+
+// `pointer` becomes an array of zeros in the room.
+#define TAKE_ARRAY(room, pointer, count)                                                           \
+    ((pointer) = engine_room_take((room), (count) * sizeof *(pointer)))
+void *engine_room_take(Room *room, size_t bytes);
+
 // Consecutive slots.
 typedef struct Span {
     uint32_t from, to;
@@ -96,6 +108,8 @@ struct Engine {
     State *state;
     RngKey key;
     const EngineKernel *kernel;
+
+    Room room; // for the arrays here and of the list that are not said to grow
 
     int dimension;
     size_t row;   // of the sketch: ROW_2D or ROW_3D
@@ -129,7 +143,6 @@ struct Engine {
     uint32_t *lined_row; // [slots + 2 BLOCK] with where their sketches begin
     double *thermal;     // [slots] 1/sqrt(mass)
     uint32_t *stamp;     // [slots] collisions of each in this window
-    double *thermal_of;  // [count] the same, by id
     double largest;      // diameter
     double fastest;      // thermal velocity, and that of the flow across a diameter
     double margin;       // the list is rebuilt when this is left of its reach, in d
@@ -147,8 +160,9 @@ struct Engine {
 
     int64_t careful; // windows still to be done with a new list each
     int redraw;      // the window that is opened begins with velocities from `normals`
-    int outgrown;    // the events did not fit
-    int hung;        // a particle collided more often than anything physical
+    int fetches;  // 1: more particles than the cache has room for; what is needed is fetched ahead
+    int outgrown; // the events did not fit
+    int hung;     // a particle collided more often than anything physical
 
     Tally tally;
     Snapshot snapshot;
@@ -174,7 +188,7 @@ ENGINE_KERNELS(avx2)
 ENGINE_KERNELS(avx512)
 #undef ENGINE_KERNELS
 
-Status list_create(Engine *engine);
+void list_take_room(Engine *engine);
 void list_free(Engine *engine);
 // Sorts the particles by cell and finds all pairs nearer than contact + skin.
 Status list_build(Engine *engine);

@@ -90,6 +90,14 @@ static void reorder(const double *from, double *to, const uint32_t *order, size_
     for (size_t slot = 0; slot < count; slot++) to[order[slot]] = from[slot];
 }
 
+// From one array to another, which takes its place.
+static void reorder_through(double **array, double **other, const uint32_t *order, size_t count) {
+    double *const from = *array;
+    reorder(from, *other, order, count);
+    *array = *other;
+    *other = from;
+}
+
 static void sort_by_cell(Engine *engine, const Grid *grid) {
     uint32_t *order = engine->cell_of; // becomes: the new slot of each
     for (size_t slot = 0; slot < engine->count; slot++) {
@@ -103,12 +111,11 @@ static void sort_by_cell(Engine *engine, const Grid *grid) {
         reorder(engine->now.velocity[a], engine->spare.velocity[a], order, engine->count);
     }
     swap_in_sorted(engine);
-    for (size_t slot = 0; slot < engine->count; slot++) {
-        const uint32_t id = engine->id[slot];
-        engine->radius[slot] = engine->state->diameter[id] / 2;
-        engine->mass[slot] = engine->state->mass[id];
-        engine->thermal[slot] = engine->thermal_of[id];
-    }
+    // From slot to slot is near in memory; from the State's order it would not be.
+    double **const other = &engine->list.origin[0]; // is made anew with the list
+    reorder_through(&engine->radius, other, order, engine->count);
+    reorder_through(&engine->mass, other, order, engine->count);
+    reorder_through(&engine->thermal, other, order, engine->count);
 }
 
 static void copy_places(const Engine *engine, double *const to[3]) {
@@ -285,14 +292,19 @@ static Status start_neighbours(Engine *engine, uint32_t *before) {
     return grow_blocks(list, end / HALF_BLOCK + 1);
 }
 
-static void clear_blocks(Engine *engine) {
+// The last block of each particle, which neighbours do not fill, and that after all.
+static void clear_last_blocks(Engine *engine) {
     NeighbourList *list = &engine->list;
     Neighbours none;
     for (int k = 0; k < HALF_BLOCK; k++) {
         none.row[k] = (uint32_t)(engine->count * engine->row);
         none.contact2[k] = NEVER;
     }
-    for (size_t b = 0; b <= list->start[engine->count] / HALF_BLOCK; b++) list->blocks[b] = none;
+    list->blocks[list->start[engine->count] / HALF_BLOCK] = none;
+    for (size_t slot = engine->count; slot > 0; slot--) {
+        const uint32_t end = list->start[slot] / HALF_BLOCK;
+        if (end > 0) list->blocks[end - 1] = none;
+    }
 }
 
 static void put_neighbour(const NeighbourList *list, uint32_t n, uint32_t row, float contact2) {
@@ -308,7 +320,7 @@ static Status list_neighbours(Engine *engine) {
     const size_t pairs = list->pair_start[engine->count];
     uint32_t *before = engine->cell_of; // no longer needed
     TRY(start_neighbours(engine, before));
-    clear_blocks(engine);
+    clear_last_blocks(engine);
     for (size_t p = 0; p < pairs; p++) {
         const uint32_t first = list->first[p], second = list->second[p], slot = first >> shift;
         const uint32_t after = list->start[slot] + (uint32_t)p - list->pair_start[slot];
@@ -319,12 +331,16 @@ static Status list_neighbours(Engine *engine) {
 }
 
 // The skin: wide enough for many windows, never so wide that two images of one particle are near.
+// Where diameters are yet to grow, the lists are as long as they will be: particles that fly far
+// between collisions then stay longer in their reach.
 static double skin_of(const Engine *engine) {
     double shortest = engine->edge[0];
     for (int a = 0; a < engine->dimension; a++) shortest = fmin(shortest, engine->edge[a]);
     const bool diffusive = engine->settings.redraw && engine->settings.windows_per_step == 1;
     const double skin = SKIN[diffusive][engine->dimension - 2];
-    const double wanted = fmax(skin, SKIN_WINDOWS * engine->fastest * engine->settings.window);
+    const double room = fmax(0, engine->largest * (1 - engine->scale));
+    const double wanted =
+        fmax(skin + room, SKIN_WINDOWS * engine->fastest * engine->settings.window);
     return fmin(wanted, shortest / 2 - engine->largest * engine->scale);
 }
 
@@ -414,26 +430,22 @@ double list_reach(const Engine *engine) {
     return fmin(skin / 2 / bent(engine), list_outer_reach(engine));
 }
 
-Status list_create(Engine *engine) {
+void list_take_room(Engine *engine) {
+    Room *room = &engine->room;
     NeighbourList *list = &engine->list;
     engine->cells_most = 2 * engine->count + 27;
     for (int a = 0; a < engine->dimension; a++) {
-        TRY(NEW_ARRAY(list->anchor[a], engine->slots));
-        TRY(NEW_ARRAY(list->origin[a], engine->slots));
+        TAKE_ARRAY(room, list->anchor[a], engine->slots);
+        TAKE_ARRAY(room, list->origin[a], engine->slots);
     }
-    TRY(NEW_ARRAY(list->start, engine->count + 1));
-    TRY(NEW_ARRAY(list->pair_start, engine->count + 1));
-    TRY(NEW_ARRAY(engine->cell_of, engine->count + 1));
-    TRY(NEW_ARRAY(engine->cell_start, engine->cells_most + 1));
-    return OK;
+    TAKE_ARRAY(room, list->start, engine->count + 1);
+    TAKE_ARRAY(room, list->pair_start, engine->count + 1);
+    TAKE_ARRAY(room, engine->cell_of, engine->count + 1);
+    TAKE_ARRAY(room, engine->cell_start, engine->cells_most + 1);
 }
 
 void list_free(Engine *engine) {
     NeighbourList *list = &engine->list;
-    for (int a = 0; a < 3; a++) {
-        memory_free(list->anchor[a]);
-        memory_free(list->origin[a]);
-    }
     memory_free(list->first);
     memory_free(list->second);
     memory_free(list->pair_contact2);
@@ -442,9 +454,5 @@ void list_free(Engine *engine) {
     memory_free(list->pruned_first);
     memory_free(list->pruned_second);
     memory_free(list->pruned_contact2);
-    memory_free(list->start);
-    memory_free(list->pair_start);
     memory_free(list->blocks);
-    memory_free(engine->cell_of);
-    memory_free(engine->cell_start);
 }

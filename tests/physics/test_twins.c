@@ -25,6 +25,7 @@ typedef struct Case {
     uint64_t collisions_least;
     Flow flow;
     EnginePull pull;
+    int64_t start;
 } Case;
 
 // Equal numbers of diameters 1 and 1.4, masses 1 and 2.
@@ -32,6 +33,7 @@ static System mixture_of(const Case *test) {
     System system = {.dimension = test->dimension,
                      .particles = test->particles,
                      .packing_fraction = test->packing_fraction,
+                     .start = test->start,
                      .species_count = 2};
     const Species small = {.name = "small",
                            .shape = test->dimension == 2 ? SHAPE_DISC : SHAPE_SPHERE,
@@ -157,6 +159,21 @@ START_TEST(brownian_discs_collide_as_their_twins) {
 }
 END_TEST
 
+// So many that memory is fetched ahead, from a crystal, which is there at once.
+START_TEST(many_discs_collide_as_their_twins) {
+    const Case many = {.dimension = 2,
+                       .particles = 36000,
+                       .packing_fraction = 0.55,
+                       .window = 0.01,
+                       .windows_per_step = 10,
+                       .redraw = true,
+                       .steps = 10,
+                       .collisions_least = 50000,
+                       .start = START_CRYSTAL};
+    check_twins(&many, 31);
+}
+END_TEST
+
 START_TEST(brownian_spheres_collide_as_their_twins) {
     const Case dense = {3, 64, 0.5, 0.01, 1, true, false, 1500, 5000};
     const Case dilute = {3, 64, 0.1, 0.01, 5, true, false, 1500, 1000};
@@ -209,6 +226,7 @@ int main(void) {
     TCase *all = tcase_create("all");
     tcase_set_timeout(all, 120);
     tcase_add_test(all, brownian_discs_collide_as_their_twins);
+    tcase_add_test(all, many_discs_collide_as_their_twins);
     tcase_add_test(all, brownian_spheres_collide_as_their_twins);
     tcase_add_test(all, newtonian_particles_collide_as_their_twins);
     tcase_add_test(all, sheared_particles_collide_as_their_twins);
