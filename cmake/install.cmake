@@ -21,17 +21,18 @@ add_custom_target(perrin-public ALL DEPENDS ${PERRIN_PUBLIC_LIBRARY})
 
 set(PERRIN_REQUIRES "yaml-0.1 hdf5-serial gsl fftw3")
 configure_file(cmake/perrin.pc.in public/perrin.pc @ONLY)
-configure_file(cmake/PerrinConfig.cmake.in public/PerrinConfig.cmake @ONLY)
+# By these names find_package finds it as Perrin and as perrin.
+configure_file(cmake/PerrinConfig.cmake.in public/perrin-config.cmake @ONLY)
 include(CMakePackageConfigHelpers)
-write_basic_package_version_file(${CMAKE_BINARY_DIR}/public/PerrinConfigVersion.cmake
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/public/perrin-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)
 
 install(TARGETS perrin RUNTIME DESTINATION bin)
 install(FILES ${PERRIN_PUBLIC_LIBRARY} DESTINATION lib)
 install(DIRECTORY include/perrin DESTINATION include)
 install(FILES ${CMAKE_BINARY_DIR}/public/perrin.pc DESTINATION lib/pkgconfig)
-install(FILES ${CMAKE_BINARY_DIR}/public/PerrinConfig.cmake
-              ${CMAKE_BINARY_DIR}/public/PerrinConfigVersion.cmake
+install(FILES ${CMAKE_BINARY_DIR}/public/perrin-config.cmake
+              ${CMAKE_BINARY_DIR}/public/perrin-config-version.cmake
         DESTINATION lib/cmake/Perrin)
 install(DIRECTORY examples gallery DESTINATION share/perrin)
 install(FILES docs/perrin.1 DESTINATION share/man/man1)

@@ -51,7 +51,7 @@ void perrin_run_stop(perrin_run *run);
  * NULL. Results are given with PERRIN_OK and with PERRIN_UNHEALTHY. */
 int perrin_run_finish(perrin_run *run, perrin_results **out);
 
-/** Reads DIR/results.h5. */
+/** Reads a file results.h5, such as "DIR/results.h5". */
 int perrin_results_read(perrin_results **out, const char *path);
 void perrin_results_free(perrin_results *results);
 
@@ -69,7 +69,7 @@ int perrin_results_at(const perrin_results *results, size_t index, perrin_quanti
 /** The quantity of that name, as in "quiescent/long_time_diffusion". */
 int perrin_results_find(const perrin_results *results, const char *name, perrin_quantity *out);
 
-enum { PERRIN_AXES_MOST = 4 };
+enum { PERRIN_AXES_MOST = 5 };
 
 /** An array over axes, as in "quiescent/mean_squared_displacement". Row-major: the last axis runs
  * fastest. */

@@ -10,6 +10,9 @@
 
 #include <string.h>
 
+_Static_assert((int)PERRIN_AXES_MOST == (int)RESULT_AXES,
+               "a caller's perrin_series has room for all axes");
+
 struct perrin_plan {
     Plan *plan;
 };

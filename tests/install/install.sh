@@ -51,6 +51,13 @@ cp cmake-build/diffusion by-cmake
 try by-cmake
 cmp as-c.out as-cpp.out && cmp as-c.out by-cmake.out || fail "three programs, three results"
 
+# A series with as many axes as there are.
+sed 's/observe: \[.*\]/observe: [self_scattering: {wave_numbers: [3, 5], waiting_times: [0, 0.1]}]/' \
+    "$here/run.yaml" >series.yaml
+"$prefix/bin/perrin" run series.yaml -o series-run --quiet >series.out 2>&1 || fail "$(cat series.out)"
+eval "gcc -std=c11 $strict $(pkg-config --cflags perrin) '$here/series.c' $libs -o series"
+./series series-run/results.h5 quiescent/self_scattering 5 || fail "a series by the library is not what it is"
+
 names=$(nm -g --defined-only "$prefix/lib/libperrin.a" | awk 'NF == 3 { print $3 }' | grep -v '^perrin_') || true
 [ -z "$names" ] || fail "the library shows names that are not its own: $names"
 echo "installed, linked as C, as C++ and by CMake, and run: $(cat as-c.out)"
