@@ -60,15 +60,28 @@ static void near_peak(const StartUp *mean, double sign, size_t *begin, size_t *e
     while (*end < mean->count && sign * smooth(mean, *end) > least) ++*end;
 }
 
-// The windows of the peak are those of the mean over all replicas.
-static Overshoot overshoot_of(const StartUp *mean, size_t begin, size_t end) {
-    Overshoot overshoot = {0};
+// The windows of the peak are those of the mean over all replicas. False if the parabola through
+// them has no top among them: too few windows, or too much noise, to say where it is.
+static bool overshoot_of(const StartUp *mean, size_t begin, size_t end, Overshoot *overshoot) {
     const size_t half = mean->count / 2;
-    for (size_t k = half; k < mean->count; k++) overshoot.steady += mean->stress[k];
-    overshoot.steady /= (double)(mean->count - half);
-    fit_parabola_top(mean->strain + begin, mean->stress + begin, end - begin, &overshoot.strain,
-                     &overshoot.peak);
-    return overshoot;
+    overshoot->steady = 0;
+    for (size_t k = half; k < mean->count; k++) overshoot->steady += mean->stress[k];
+    overshoot->steady /= (double)(mean->count - half);
+    const double bend = fit_parabola_top(mean->strain + begin, mean->stress + begin, end - begin,
+                                         &overshoot->strain, &overshoot->peak);
+    return bend * overshoot->peak < 0 && overshoot->strain >= mean->strain[begin] &&
+           overshoot->strain <= mean->strain[end - 1];
+}
+
+// With all replicas, and `without[r]` with all but one; false if one of them has no top.
+static bool find_overshoots(const ResultSeries *series, size_t replicas, StartUp *mean,
+                            size_t begin, size_t end, Overshoot *all, Overshoot *without) {
+    if (!overshoot_of(mean, begin, end, all)) return false;
+    for (size_t r = 0; r < replicas; r++) {
+        if (replicas > 1) mean_without(series, replicas, (int64_t)r, mean);
+        if (!overshoot_of(mean, begin, end, &without[r])) return false;
+    }
+    return true;
 }
 
 static Status put_overshoot(Results *results, const ResultSeries *series, size_t replica,
@@ -94,13 +107,15 @@ static Status derive_overshoot(Results *results, const ResultSeries *series, Sta
     near_peak(mean, sign, &begin, &end);
     // Before it the stress must have been seen to rise, after it to fall.
     if (begin == 0 || end >= mean->count / 2 || end - begin < PEAK_LEAST) return OK;
-    const Overshoot all = overshoot_of(mean, begin, end);
-    for (size_t r = 0; r < results->replicas; r++) {
-        mean_without(series, results->replicas, (int64_t)r, mean);
-        const Overshoot without = results->replicas < 2 ? all : overshoot_of(mean, begin, end);
-        TRY(put_overshoot(results, series, r, all, without));
+    Overshoot all, *without = NULL;
+    TRY(NEW_ARRAY(without, results->replicas));
+    Status status = OK;
+    if (find_overshoots(series, results->replicas, mean, begin, end, &all, without)) {
+        for (size_t r = 0; r < results->replicas && status == OK; r++)
+            status = put_overshoot(results, series, r, all, without[r]);
     }
-    return OK;
+    memory_free(without);
+    return status;
 }
 
 Status derive_start_up(Results *results, const ResultSeries *series) {

@@ -120,8 +120,8 @@ Status fit_value_at_edge(const double *y, size_t bins, int degree, double *value
     return OK;
 }
 
-void fit_parabola_top(const double *x, const double *y, size_t count, double *place,
-                      double *height) {
+double fit_parabola_top(const double *x, const double *y, size_t count, double *place,
+                        double *height) {
     enum { COEFFICIENTS = 3 };
     const double middle = (x[0] + x[count - 1]) / 2;
     Fit fit = fit_new(count, COEFFICIENTS);
@@ -135,8 +135,10 @@ void fit_parabola_top(const double *x, const double *y, size_t count, double *pl
     gsl_multifit_linear(fit.basis, fit.data, fit.coefficients, fit.covariance, &chi2, fit.work);
     const double level = gsl_vector_get(fit.coefficients, 0);
     const double slope = gsl_vector_get(fit.coefficients, 1);
-    const double from_middle = -slope / (2 * gsl_vector_get(fit.coefficients, 2));
+    const double bend = gsl_vector_get(fit.coefficients, 2);
+    const double from_middle = -slope / (2 * bend);
     *place = middle + from_middle;
     *height = level + slope * from_middle / 2;
     fit_free(&fit);
+    return bend;
 }

@@ -27,5 +27,6 @@ bool fit_least(FitMisfit *misfit, const void *of, double from, double to, size_t
 Status fit_value_at_edge(const double *y, size_t bins, int degree, double *value);
 
 // Where the parabola through (x, y), at least three, has its top or its bottom, and how high it is.
-void fit_parabola_top(const double *x, const double *y, size_t count, double *place,
-                      double *height);
+// Returns the factor of x^2: below 0 it is a top.
+double fit_parabola_top(const double *x, const double *y, size_t count, double *place,
+                        double *height);
