@@ -75,6 +75,21 @@ static Status print_observation(const Observation *observation, const System *sy
     return status;
 }
 
+// Where each trajectory but the first begins, and whether there will be such a place.
+static void print_next_place(const System *system, const Pull *pull) {
+    static const double MANY = 100; // of such places among those tried, to be sure of one
+    if (tracer_has_alike(pull, system)) return;
+    printf("          %-16s each begins at a random place where the tracer touches nothing", "");
+    const double chance = tracer_chance_of_room(pull, system);
+    if (chance >= 0)
+        printf(":\n          %-16s one in %.2g by scaled-particle theory", "", 1 / chance);
+    printf("\n");
+    if (chance < 0 || chance * TRACER_ATTEMPTS > MANY) return;
+    printf("          %-16s of %d that are tried hardly any: it goes back to its own hole, or the\n"
+           "          %-16s run ends; leave out the period, so that each replica is a trajectory\n",
+           "", TRACER_ATTEMPTS, "");
+}
+
 static void print_pull(const System *system, const Pull *pull, const Clock *clock) {
     const Species *tracer = &system->species[tracer_species(pull, system)];
     const double force = drive_pull_force(pull, tracer->diameter);
@@ -91,6 +106,7 @@ static void print_pull(const System *system, const Pull *pull, const Clock *cloc
         printf("%lld trajectories of %.4g %s in each replica, with rests of %.4g\n",
                (long long)(clock->ticks / period), (double)on * clock->tick, clock->unit,
                (double)(period - on) * clock->tick);
+    if (period <= clock->ticks) print_next_place(system, pull);
 }
 
 static Status print_stage(const Plan *plan, size_t index) {

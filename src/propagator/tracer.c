@@ -2,8 +2,10 @@
 // The tracer of a pull: one particle, of a species of its own, after those of the bath.
 #include "propagator/tracer.h"
 
+#include "base/constants.h"
 #include "shapes/overlap.h"
 
+#include <math.h>
 #include <string.h>
 
 size_t tracer_species(const Pull *pull, const System *system) {
@@ -117,8 +119,7 @@ static bool is_free(const State *state, size_t tracer, const double place[3]) {
 }
 
 static Status insert(State *state, size_t tracer, Rng *rng) {
-    static const int ATTEMPTS = 1000000;
-    for (int k = 0; k < ATTEMPTS; k++) {
+    for (int k = 0; k < TRACER_ATTEMPTS; k++) {
         double place[3] = {0};
         for (int a = 0; a < state->box.dimension; a++) {
             place[a] = rng_uniform(rng) * state->box.edge[a];
@@ -130,7 +131,54 @@ static Status insert(State *state, size_t tracer, Rng *rng) {
     return status_fail(UNHEALTHY,
                        "the tracer's next trajectory begins at a random place, and of %d none had "
                        "room for it; leave out the period, so that each replica is a trajectory",
-                       ATTEMPTS);
+                       (int)TRACER_ATTEMPTS);
+}
+
+bool tracer_has_alike(const Pull *pull, const System *system) {
+    const size_t tracer = tracer_species(pull, system);
+    const Species *own = &system->species[tracer];
+    size_t counts[SPECIES_MOST];
+    system_counts(system, counts);
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Species *other = &system->species[s];
+        if (s != tracer && counts[s] > 0 && other->shape == own->shape &&
+            other->spread == SPREAD_NONE && own->spread == SPREAD_NONE &&
+            other->diameter == own->diameter)
+            return true;
+    }
+    return false;
+}
+
+// sum[n] of diameter^n over the bath per volume, in units in which sum[dimension] is its packing
+// fraction. False if it is not of discs or spheres of given sizes.
+static bool bath_sums(const Pull *pull, const System *system, double sum[4]) {
+    size_t counts[SPECIES_MOST];
+    system_counts(system, counts);
+    const Box box = system_box(system);
+    const double unit = PI / (system->dimension == 2 ? 4 : 6) / box_volume(&box);
+    for (size_t s = 0; s < system->species_count; s++) {
+        const Species *species = &system->species[s];
+        if (shape_is_oriented((ShapeKind)species->shape) || species->spread != SPREAD_NONE)
+            return false;
+        if (s == tracer_species(pull, system)) continue;
+        for (int n = 0; n < 4; n++) {
+            sum[n] += unit * (double)counts[s] * pow(species->diameter, n);
+        }
+    }
+    return true;
+}
+
+// Lebowitz, Helfand & Praestgaard, J. Chem. Phys. 43, 774 (1965): the work of making a hole.
+double tracer_chance_of_room(const Pull *pull, const System *system) {
+    double sum[4] = {0};
+    if (!bath_sums(pull, system, sum)) return -1;
+    const double d = system->species[tracer_species(pull, system)].diameter;
+    const double room = 1 - sum[system->dimension];
+    const double x0 = sum[0] / room, x1 = sum[1] / room, x2 = sum[2] / room;
+    if (system->dimension == 2) return room * exp(-2 * x1 * d - (x0 + x1 * x1) * d * d);
+    const double surface = 3 * x1 + 4.5 * x2 * x2;
+    const double pressure = x0 + 3 * x1 * x2 + 3 * x2 * x2 * x2;
+    return room * exp(-d * (3 * x2 + d * (surface + d * pressure)));
 }
 
 Status tracer_take_another_place(State *state, size_t tracer, RngKey key) {

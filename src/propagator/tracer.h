@@ -21,6 +21,14 @@ Status tracer_check_box(const Pull *pull, const System *system);
 // place is found.
 Status tracer_take_another_place(State *state, size_t tracer, RngKey key);
 
+// Is there another particle of the tracer's shape and size to change places with?
+bool tracer_has_alike(const Pull *pull, const System *system);
+// Scaled-particle theory: the chance that the tracer touches nothing at a random place in a bath in
+// equilibrium without it; -1 where the theory does not hold (a spread of sizes, bodies with an
+// axis).
+double tracer_chance_of_room(const Pull *pull, const System *system);
+enum { TRACER_ATTEMPTS = 1000000 }; // random places that are tried
+
 // From masses, as a thermostat gives them; else from the shapes, as Monte Carlo takes them: the
 // free diffusion coefficient of the tracer, in D0.
 double tracer_free_diffusion(const Pull *pull, const System *system, bool thermostatted);

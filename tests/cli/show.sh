@@ -53,6 +53,26 @@ halves structure_factor \
     'small: {shape: sphere, fraction: 0.5}, big: {shape: sphere, diameter: 1.2, fraction: 0.5}' \
     'dynamic-monte-carlo, step: 0.05, clock: acceptance-rescaling' 3
 
+# Of a tracer with trajectories one after another, whether there will be another place for it.
+cat > pulled.yaml << 'END'
+system:
+  dimension: 3
+  particles: 4000
+  packing_fraction: 0.45
+  box: {aspect: [2, 1, 1]}
+  species: {bath: {shape: sphere}, tracer: {shape: sphere, diameter: 1.6, count: 1}}
+dynamics: {method: dynamic-monte-carlo, step: 0.03, clock: acceptance-rescaling}
+protocol:
+  - {stage: pulled, time: 1, pull: {species: tracer, peclet: 2, period: 0.5}}
+END
+warns() { "$perrin" check pulled.yaml "$@" | grep -q 'or the$'; }
+keeps_quiet() { ! warns "$@"; }
+expect "check warns of a dense bath" warns
+expect "check does not of a small tracer" keeps_quiet --set system.species.tracer.diameter=0.3
+expect "check does not of one like the bath" keeps_quiet --set system.species.tracer.diameter=1
+expect "check does not of a single trajectory" \
+    keeps_quiet --set protocol.pulled.pull.period=0
+
 # Numbers.
 "$perrin" show small > table
 "$perrin" show small --csv > table.csv
