@@ -219,6 +219,21 @@ static void put_sources(Text *page, const Results *results) {
     }
 }
 
+// What the columns mean; of a theory, where nothing is random, there is less to say.
+static void put_conventions(Text *page, const Results *results) {
+    const bool simulated = results_find_fact(results, "seed") != NULL;
+    text_put(page, "</table>\n<p class=\"under\">");
+    if (simulated)
+        text_put(page, "In brackets the standard error over the n replicas, in units of the last "
+                       "digits; σ is that error alone, and references have errors of their own and "
+                       "are of equilibrium. ");
+    else if (results->replicas > 1)
+        text_put(page, "In brackets the standard error, in units of the last digits, from n groups "
+                       "of what was measured, each left out in turn. ");
+    text_put(page, "Lengths in d, energies in kT, times in d²/D₀");
+    text_put(page, simulated ? ", in Newtonian stages in d √(m/kT)." : ".");
+}
+
 void page_numbers(Text *page, const Results *results) {
     if (results->scalar_count == 0) return;
     text_put(page, "<h2>Numbers</h2>\n<table>\n<tr><th>Quantity</th><th class=\"n\">Value</th>"
@@ -227,12 +242,7 @@ void page_numbers(Text *page, const Results *results) {
     for (size_t i = 0; i < results->scalar_count; i++) {
         if (begins_stage(results, i)) put_stage(page, results, results->scalars[i].stage);
     }
-    text_put(page,
-             "</table>\n<p class=\"under\">In brackets the standard error over the n replicas, "
-             "in units of the last digits; σ is that error alone, and references have errors of "
-             "their own and are of equilibrium. Lengths in d, energies in kT, "
-             "times in d²/D₀, in Newtonian stages in "
-             "d √(m/kT).");
+    put_conventions(page, results);
     put_sources(page, results);
     text_put(page, "</p>\n");
     tensor_table(page, results);

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # examples.sh PROGRAM EXAMPLE: the run file of an example passes its checks as it is, and runs to its
-# end with two replicas and a quarter of every stage's time; the report has no empty place, and
-# `perrin explain` knows all that it measured.
+# end with two replicas and a quarter of every stage's time; the report has no empty place, that of a
+# theory says nothing of replicas, and `perrin explain` knows all that was measured.
 set -eu
 perrin=$1 example=$2
 work=$(mktemp -d)
@@ -30,6 +30,10 @@ if grep -q 'No figure' "$work/run/report.html"; then
 fi
 if [ -n "$(command -v gnuplot)" ] && ! grep -q '<figure>' "$work/run/report.html"; then
     echo "the report has no figure"
+    exit 1
+fi
+if [ $# -eq 0 ] && grep -q 'replica' "$work/run/report.html"; then
+    echo "the report of a theory speaks of replicas"
     exit 1
 fi
 
