@@ -120,7 +120,10 @@ static void put_coordinate(Text *title, const ResultAxis *axis, size_t index) {
         notation_name(title, axis->labels[index]);
         return;
     }
-    notation_name(title, axis->name);
+    if (strcmp(axis->name, "wave_number") == 0)
+        text_put(title, "q"); // of many curves in a legend that has little room
+    else
+        notation_name(title, axis->name);
     text_add(title, axis->unit[0] ? " = %.4g " : " = %.4g", axis->values[index]);
     notation_unit(title, axis->unit);
 }

@@ -412,9 +412,9 @@ START_TEST(an_observable_without_a_row_is_drawn_by_the_plain_rule) {
     const Figure figure = figure_of(results, &results->series[0]);
     Text csv = {0};
     figure_numbers(&csv, &figure);
-    ck_assert_str_eq(text_words(&csv), "time,\"wave number = 1 d⁻¹\",\"wave number = 1 d⁻¹ error\","
-                                       "\"wave number = 2 d⁻¹\",\"wave number = 2 d⁻¹ error\","
-                                       "\"wave number = 3 d⁻¹\",\"wave number = 3 d⁻¹ error\"\n"
+    ck_assert_str_eq(text_words(&csv), "time,\"q = 1 d⁻¹\",\"q = 1 d⁻¹ error\","
+                                       "\"q = 2 d⁻¹\",\"q = 2 d⁻¹ error\","
+                                       "\"q = 3 d⁻¹\",\"q = 3 d⁻¹ error\"\n"
                                        "0.01,1,,4,,7,\n0.1,2,,5,,8,\n1,3,,,,9,\n");
     ck_assert_str_eq(figure.name, "a_stage_new_thing");
     text_free(&csv);
@@ -624,7 +624,7 @@ START_TEST(a_caption_says_where_the_only_number_of_an_axis_is) {
     const Figure figure = figure_of(results, &results->series[0]);
     Text caption = {0};
     figure_caption(&caption, &figure);
-    ck_assert_str_eq(text_words(&caption), "Of a tagged particle. At wave number = 6.6 d⁻¹.");
+    ck_assert_str_eq(text_words(&caption), "Of a tagged particle. At q = 6.6 d⁻¹.");
     text_free(&caption);
     results_free(results);
 }
