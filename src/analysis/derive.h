@@ -6,6 +6,7 @@
 #include "state/system.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 // The jackknife's pseudo-value of a replica (Efron, SIAM monograph 38, 1982), from a number found
 // with all `replicas` and without this one; of a single replica, the number itself. Of two, that of
@@ -15,6 +16,14 @@ static inline double pseudo_value(size_t replicas, double all, double without) {
     if (replicas < 3) return replicas < 2 ? all : without;
     return (double)replicas * all - (double)(replicas - 1) * without;
 }
+
+// Rows of a series are counted over its first `axes` axes. The row of `other` at the same species,
+// wave number and so on as a row of `series`; NO_ROW if there is none.
+#define NO_ROW SIZE_MAX
+size_t derive_same_row(const ResultSeries *series, size_t row, const ResultSeries *other,
+                       size_t axes);
+// Whether all rows of `series` have one in `other`.
+bool derive_has_rows(const ResultSeries *series, const ResultSeries *other, size_t axes);
 
 // Whether a stage flows unsteadily, as its correlators tell: then nothing in it is stationary.
 bool derive_unsteady(const Results *results, const char *stage);

@@ -3,7 +3,8 @@
 // Kohlrausch's law A exp(-(t/tau)^beta). The law holds of the last decay only, so that it is fitted
 // from a beginning that is scanned: the exponent of every beginning is given, and chosen is that
 // around which, half a decade to both sides, it changes least, behind the plateau if there is one
-// (factorisation.c). The errors are the jackknife's over replicas, with the same window for all.
+// (factorisation.c). The errors are the jackknife's over replicas, with the same window for all; a
+// law whose tau is not among the lags that it is fitted to is not told.
 #include "analysis/decay.h"
 #include "analysis/derive.h"
 #include "base/memory.h"
@@ -172,7 +173,16 @@ static void quantities(const Row *row, double out[QUANTITIES]) {
         row->curve.begin < row->curve.lags ? row->curve.times[row->curve.begin] : (double)NAN;
 }
 
-// values[replica][quantity][row]: pseudo-values.
+// Whether the law falls to 1/e of its amplitude among the lags that it is fitted to. Of another its
+// numbers depend on each other so much that they are those of the noise.
+static bool is_seen(const Row *row, const double quantity[QUANTITIES]) {
+    const Curve *curve = &row->curve;
+    return curve->begin < curve->end && quantity[TIME] >= curve->times[curve->begin] &&
+           quantity[TIME] <= curve->times[curve->end - 1];
+}
+
+// values[replica][quantity][row]: pseudo-values. No law is told where it is not seen of all
+// replicas or of all but one.
 static void derive_row(Row *row, double *values, size_t index, size_t rows) {
     double all[QUANTITIES], rest[QUANTITIES];
     const size_t replicas = row->results->replicas;
@@ -180,11 +190,18 @@ static void derive_row(Row *row, double *values, size_t index, size_t rows) {
     scan(row);
     choose_window(row);
     quantities(row, all);
+    bool seen = is_seen(row, all);
     for (size_t r = 0; r < replicas; r++) {
         mean_without(row, (int64_t)r);
         quantities(row, rest);
+        seen = seen && (replicas < 2 || is_seen(row, rest));
         for (size_t q = 0; q < QUANTITIES; q++) {
             values[(r * QUANTITIES + q) * rows + index] = pseudo_value(replicas, all[q], rest[q]);
+        }
+    }
+    for (size_t r = 0; r < replicas && !seen; r++) {
+        for (size_t q = 0; q < QUANTITIES; q++) {
+            if (q != RELAXATION_TIME) values[(r * QUANTITIES + q) * rows + index] = NAN;
         }
     }
 }

@@ -28,7 +28,7 @@ static const ResultAxis *times_of(const ResultSeries *series) {
     return &series->axis[series->axes - 1];
 }
 
-// Times at which the functions, 1 at t = 0, have fallen to each level.
+// Times at which a function, 1 at t = 0, has fallen to each level.
 static void crossings(const Shift *shift, const ResultSeries *series, size_t row, int64_t without,
                       double *mean, double out[LEVELS]) {
     const ResultAxis *time = times_of(series);
@@ -39,7 +39,8 @@ static void crossings(const Shift *shift, const ResultSeries *series, size_t row
 
 static void ratios(const Shift *shift, size_t row, int64_t without, double out[LEVELS]) {
     double from[LEVELS], to[LEVELS];
-    crossings(shift, shift->from, row, without, shift->mean[0], from);
+    const size_t same = derive_same_row(shift->to, row, shift->from, shift->to->axes - 1);
+    crossings(shift, shift->from, same, without, shift->mean[0], from);
     crossings(shift, shift->to, row, without, shift->mean[1], to);
     for (size_t l = 0; l < LEVELS; l++) out[l] = to[l] / from[l];
 }
@@ -77,10 +78,6 @@ static Status put(Results *results, const Shift *shift) {
     return OK;
 }
 
-static bool same_rows(const ResultSeries *a, const ResultSeries *b) {
-    return a->axes == b->axes && a->size / times_of(a)->count == b->size / times_of(b)->count;
-}
-
 // Newtonian stages, whose centre of mass rests, have no functions about it of their own.
 static const char *newtonian_name(const char *observable) {
     static const char *const names[][2] = {
@@ -98,7 +95,8 @@ static const ResultSeries *counterpart(const Results *results, const ResultSerie
     const ResultSeries *found = NULL;
     const char *name = newtonian_name(series->observable);
     for (const ResultSeries *s = results->series; s < series; s++) {
-        if (strcmp(s->observable, name) != 0 || !same_rows(s, series)) continue;
+        if (strcmp(s->observable, name) != 0 || s->axes != series->axes) continue;
+        if (!derive_has_rows(series, s, series->axes - 1)) continue;
         if (strcmp(times_of(s)->unit, times_of(series)->unit) != 0) found = s;
     }
     return found;

@@ -50,9 +50,10 @@ static double mean_without(const Results *results, const ResultSeries *series, s
 }
 
 // At a time between the lags of the stage at rest, on a straight line in log t.
-static double at_rest(const Relation *relation, size_t row, double time, int64_t without) {
+static double at_rest(const Relation *relation, size_t sheared_row, double time, int64_t without) {
     const ResultSeries *rest = relation->rest;
     const ResultAxis *axis = &rest->axis[rest->axes - 1];
+    const size_t row = derive_same_row(relation->sheared, sheared_row, rest, rest->axes - 1);
     size_t k = 0;
     while (k < axis->count && axis->values[k] < time * (1 - 1e-9)) k++;
     if (k == axis->count) return NAN;
@@ -238,7 +239,7 @@ static void clear(Relation *relation, double *room[4]) {
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) memory_free(all[k]);
 }
 
-// A stage with the same function, the same axes but waiting strains, and no shear.
+// A stage with the same functions, among others perhaps, and no shear.
 static const ResultSeries *quiescent_of(const Results *results, const ResultSeries *sheared) {
     for (size_t i = 0; i < results->series_count; i++) {
         const ResultSeries *rest = &results->series[i];
@@ -246,10 +247,7 @@ static const ResultSeries *quiescent_of(const Results *results, const ResultSeri
         if (rest->axes + 1 != sheared->axes) continue;
         if (results_find_scalar(results, rest->stage, "shear_rate")) continue;
         if (derive_unsteady(results, rest->stage)) continue;
-        bool same = true;
-        for (size_t a = 0; a + 1 < rest->axes; a++)
-            same = same && rest->axis[a].count == sheared->axis[a].count;
-        if (same) return rest;
+        if (derive_has_rows(sheared, rest, rest->axes - 1)) return rest;
     }
     return NULL;
 }

@@ -27,6 +27,11 @@ static double frozen(double t, double scale) {
     return 0.8 + 0.2 * exp(-t / (0.01 * scale));
 }
 
+// Of tau = 3000 no lag of WIDE is, of the other wave number's 750 there are.
+static double slow(double t, double scale) {
+    return 0.3 * exp(-t / 0.01) + 0.7 * exp(-pow(t / (3000 * scale), 0.6));
+}
+
 // Lags from `first` on, so many to a factor of ten.
 typedef struct Grid {
     double first, per_decade;
@@ -150,10 +155,24 @@ START_TEST(what_has_not_relaxed_has_no_time) {
 }
 END_TEST
 
+// It falls to a half within the lags, so that a fit there is, and has numbers.
+START_TEST(a_law_beyond_the_lags_is_not_told) {
+    static const char *const numbers[] = {"kohlrausch_amplitude", "kohlrausch_time",
+                                          "kohlrausch_exponent", "kohlrausch_window"};
+    Results *results = decays(slow, 0.01, 1e-3);
+    ck_assert(!isnan(found(results, "kohlrausch_scan", 40).value));
+    for (size_t n = 0; n < sizeof numbers / sizeof *numbers; n++) {
+        ck_assert(isnan(found(results, numbers[n], 0).value));
+        ck_assert(!isnan(found(results, numbers[n], 1).value));
+    }
+    results_free(results);
+}
+END_TEST
+
 // Two stages with the same decay, whose times differ by a factor and a unit.
-START_TEST(a_factor_of_time_is_found) {
-    static const double FACTOR = 0.0155;
-    static const double waves[1] = {6};
+static const double FACTOR = 0.0155;
+static Results *in_two_units(double newtonian_wave, double brownian_wave) {
+    const double waves[2] = {newtonian_wave, brownian_wave};
     Results *results = NULL;
     ck_assert_int_eq(results_create(&results, REPLICAS), OK);
     Rng rng = rng_open((RngKey){.seed = 9}, STREAM_PACKING, 0, 0);
@@ -165,7 +184,7 @@ START_TEST(a_factor_of_time_is_found) {
             .stage = "",
             .observable = "self_scattering",
             .axes = 2,
-            .axis = {{.name = "wave_number", .unit = "1/d", .count = 1, .values = waves},
+            .axis = {{.name = "wave_number", .unit = "1/d", .count = 1, .values = &waves[stage]},
                      {.name = "time",
                       .unit = stage ? "d^2/D0" : "d sqrt(m/kT)",
                       .count = LAGS,
@@ -180,6 +199,11 @@ START_TEST(a_factor_of_time_is_found) {
     }
     const System system = system_of(2, 100, 0.5, 1);
     ck_assert_int_eq(analysis_derive(results, &system), OK);
+    return results;
+}
+
+START_TEST(a_factor_of_time_is_found) {
+    Results *results = in_two_units(6, 6);
     ck_assert_ptr_null(results_find_series(results, "newtonian", "self_scattering_time_shift"));
     const ResultSeries *shift = series_of(results, "brownian", "self_scattering_time_shift");
     for (size_t level = 0; level < 9; level++) {
@@ -188,6 +212,13 @@ START_TEST(a_factor_of_time_is_found) {
         ck_assert_double_eq_tol(one.value / FACTOR, 1, 4 * 0.05);
         ck_assert_double_eq_tol(one.error / FACTOR, 0.05, 0.04);
     }
+    results_free(results);
+}
+END_TEST
+
+START_TEST(times_are_compared_at_the_same_wave_number_only) {
+    Results *results = in_two_units(4, 6);
+    ck_assert_ptr_null(results_find_series(results, "brownian", "self_scattering_time_shift"));
     results_free(results);
 }
 END_TEST
@@ -201,7 +232,9 @@ int main(void) {
     tcase_add_test(c, a_free_particle_decays_exponentially);
     tcase_add_test(c, errors_are_those_of_the_replicas);
     tcase_add_test(c, what_has_not_relaxed_has_no_time);
+    tcase_add_test(c, a_law_beyond_the_lags_is_not_told);
     tcase_add_test(c, a_factor_of_time_is_found);
+    tcase_add_test(c, times_are_compared_at_the_same_wave_number_only);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);

@@ -105,6 +105,54 @@ START_TEST(the_transient_follows_from_what_has_waited) {
 }
 END_TEST
 
+// The stage at rest looks at other wave numbers as well, and in another order; or at as many
+// others.
+static Results *at_other_waves(bool the_same_too) {
+    static const double rest_waves[2][2] = {{9, 3}, {9, 6}}, waves[2] = {6, 7};
+    const size_t sheared_waves = the_same_too ? 1 : 2;
+    double times[LAGS], rest[2][LAGS], flow[2][WAITS][LAGS];
+    for (int k = 0; k < LAGS; k++) {
+        times[k] = 1e-3 * pow(10, 0.05 * k);
+        rest[0][k] = 1;
+        rest[1][k] = at_rest(times[k]);
+        for (int w = 0; w < WAITS; w++)
+            flow[0][w][k] = flow[1][w][k] = waited(times[k], BEST_STRAIN[w], false);
+    }
+    const ResultAxis time = {.name = "time", .unit = "d^2/D0", .count = LAGS, .values = times};
+    ResultAxis wave = {.name = "wave_number", .unit = "1/d", .count = 2};
+    wave.values = rest_waves[the_same_too];
+    ResultSeries shape = {
+        .stage = "rest", .observable = "self_scattering", .axes = 2, .axis = {wave, time}};
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(results_put_series(results, &shape, 0, rest[0]), OK);
+    strcpy(shape.stage, "shear");
+    shape.axes = 3;
+    shape.axis[0].count = sheared_waves;
+    shape.axis[0].values = waves;
+    shape.axis[1] =
+        (ResultAxis){.name = "waiting_strain", .unit = "", .count = WAITS, .values = STRAINS};
+    shape.axis[2] = time;
+    ck_assert_int_eq(results_put_series(results, &shape, 0, flow[0][0]), OK);
+    results_put_scalar(results, "shear", "shear_rate", "", "", 0, RATE);
+    const System system = system_of(2, 100, 0.5, 1);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    return results;
+}
+
+START_TEST(functions_are_related_at_the_same_wave_number_only) {
+    Results *results = at_other_waves(true);
+    for (size_t k = 0; k < LAGS; k++) {
+        ck_assert_double_eq_tol(element(results, "self_scattering_relation", LAGS + k),
+                                element(results, "self_scattering", k), 2e-3);
+    }
+    results_free(results);
+    results = at_other_waves(false);
+    ck_assert_ptr_null(results_find_series(results, "shear", "self_scattering_relation"));
+    results_free(results);
+}
+END_TEST
+
 START_TEST(so_do_displacements) {
     Results *results = relaxed("non_affine_displacement", true, false);
     for (size_t w = 1; w < WAITS; w++) {
@@ -215,6 +263,7 @@ int main(void) {
     TCase *tests = tcase_create("transient");
     tcase_set_timeout(tests, 60);
     tcase_add_test(tests, the_transient_follows_from_what_has_waited);
+    tcase_add_test(tests, functions_are_related_at_the_same_wave_number_only);
     tcase_add_test(tests, so_do_displacements);
     tcase_add_test(tests, a_power_law_has_its_exponent);
     tcase_add_test(tests, diffusion_across_the_flow_is_a_slope);
