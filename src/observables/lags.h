@@ -77,7 +77,8 @@ typedef struct LagSettings {
         .offset = offsetof(Type, lags.waiting_times), .least = 0, .most = 1e12,                    \
         .unit = "time unit of the stage",                                                          \
         .about = "Time origins, ascending, counted from the start of the stage, each shown by "    \
-                 "itself: how a sample ages; empty: the mean over many origins.",                  \
+                 "itself: how a sample ages; lags that end after the stage have no value. Empty: " \
+                 "the mean over many origins.",                                                    \
     }
 #define WAITING_OPTIONS(Type, lags)                                                                \
     WAITING_TIMES_OPTION(Type, lags), {                                                            \

@@ -57,6 +57,35 @@ numbers run/analysis > stored.json
 grep -q collective_scattering_normalised live.json || fail "the run has no correlators"
 cmp live.json stored.json || fail "the same configurations gave other numbers"
 
+# Under shear too: wave vectors and displacements that go with the flow, and where pairs touch.
+cat > sheared.yaml << 'END_OF_FILE'
+system:
+  dimension: 2
+  particles: 60
+  packing_fraction: 0.5
+  species: {small: {shape: disc, fraction: 0.5}, big: {shape: disc, diameter: 1.4, fraction: 0.5}}
+dynamics: {method: event-driven, thermostat_interval: 0.05}
+protocol:
+  - stage: flow
+    shear_rate: 2
+    strain: 1.5
+    observe:
+      - self_scattering: {times: {first: 0.00125, last: 0.25}, waiting_strain: [0, 0.1, 0.7]}
+      - advected_scattering: {times: {first: 0.00125, last: 0.25}, waiting_strain: [0, 0.1, 0.7]}
+      - non_affine_displacement: {times: {first: 0.00125, last: 0.25}}
+      - planar_structure_factor
+      - angular_pair_distribution
+      - contact_stress
+ensemble: {replicas: 2}
+output: {trajectory: {every: 0.00125}}
+END_OF_FILE
+"$perrin" run sheared.yaml --quiet --threads 1 || exit 1
+"$perrin" analyse sheared > out || fail "analyse sheared"
+numbers sheared > live.json
+numbers sheared/analysis > stored.json
+grep -q advected_scattering_normalised live.json || fail "the flow has no correlators"
+cmp live.json stored.json || fail "the same configurations of a flow gave other numbers"
+
 # Two stages, of which the second goes on from the last frame of the first, and frames that are
 # further apart than the shortest lags of the run: the lags that both have are the same bits.
 cat > two.yaml << 'END_OF_FILE'
