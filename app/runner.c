@@ -98,9 +98,10 @@ static Status watch_and_finish(Campaign *campaign, const SessionWishes *wishes, 
     const char *note = NULL;
     const Status status = campaign_finish(campaign, &results, &note);
     if (status == INTERRUPTED) {
-        return status_fail(INTERRUPTED,
-                           "interrupted; all is in checkpoints: the same command resumes in %s",
-                           wishes->directory);
+        char what[STATUS_SENTENCE_SIZE];
+        snprintf(what, sizeof what, "%s", status_sentence());
+        return status_fail(INTERRUPTED, "interrupted%s%s; the same command resumes in %s",
+                           what[0] ? ": " : "", what, wishes->directory);
     }
     if (results && !quiet) print_end(results, wishes->directory);
     if (note) fprintf(stderr, "no complete report: %s\n", note); // quiet is not silent

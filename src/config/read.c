@@ -352,6 +352,7 @@ static Status read_theory(const Node *map, Plan *plan) {
 
 static Status read_itt(const Node *map, Plan *plan) {
     TRY(options_default(&itt_options, &plan->itt));
+    TRY(options_default(&output_options, &plan->output)); // how often there is a checkpoint
     TRY(read_section("itt", &itt_options, &plan->itt, NULL, map, true));
     plan->itt.given = true;
     itt_complete(&plan->itt);

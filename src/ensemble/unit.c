@@ -169,7 +169,17 @@ static Status run_unit(Run *run) {
     return collect(run);
 }
 
-static void tell_calculation(EnsembleShared *shared, const Calculation *calculation, bool running) {
+typedef struct Theorist {
+    EnsembleShared *shared;
+    Calculation *calculation;
+    double last_checkpoint; // wall seconds
+    unsigned requests_seen;
+    double seconds_before; // CPU time of the sessions before
+} Theorist;
+
+static void tell_calculation(const Theorist *theorist, bool running) {
+    const Calculation *calculation = theorist->calculation;
+    EnsembleShared *shared = theorist->shared;
     Unit *unit = &shared->units[0];
     pthread_mutex_lock(&shared->mutex);
     unit->running = running;
@@ -178,27 +188,87 @@ static void tell_calculation(EnsembleShared *shared, const Calculation *calculat
     unit->stage_time = calculation_time(calculation);
     unit->stage_unit = unit->stage_time > 0 ? "d^2/D0" : NULL;
     unit->finished = calculation_finished(calculation);
-    unit->cpu_seconds = thread_seconds();
+    unit->cpu_seconds = theorist->seconds_before + thread_seconds();
     pthread_mutex_unlock(&shared->mutex);
 }
 
-// The one unit of a run of the theory, which alone puts results in. It keeps no checkpoints.
-static Status run_calculation(EnsembleShared *shared, Calculation *calculation) {
-    tell_calculation(shared, calculation, true);
-    while (!calculation_finished(calculation)) {
-        if (atomic_load(&shared->stop)) return status_fail(INTERRUPTED, "the theory was stopped");
-        TRY(calculation_advance(calculation, shared->results));
-        tell_calculation(shared, calculation, true);
+static Status save_calculation(Theorist *theorist) {
+    EnsembleShared *shared = theorist->shared;
+    double seconds = theorist->seconds_before + thread_seconds();
+    Archive archive = archive_writer();
+    archive_f64(&archive, &seconds, 1);
+    calculation_save(theorist->calculation, &archive);
+    Status status = archive_status(&archive, true);
+    if (status == OK) status = checkpoint_write(shared->store, 0, archive.bytes, archive.size);
+    archive_free(&archive);
+    theorist->last_checkpoint = seconds_now();
+    theorist->requests_seen = atomic_load(&shared->checkpoint_requests);
+    return status;
+}
+
+static Status tell_where(const Theorist *theorist) {
+    EnsembleShared *shared = theorist->shared;
+    pthread_mutex_lock(&shared->mutex);
+    shared->units[0].fraction_at_start = calculation_progress(theorist->calculation);
+    pthread_mutex_unlock(&shared->mutex);
+    return store_log(shared->store, "the theory goes on at t = %.4g d^2/D0",
+                     calculation_time(theorist->calculation));
+}
+
+static Status load_calculation(Theorist *theorist) {
+    EnsembleShared *shared = theorist->shared;
+    void *bytes = NULL;
+    size_t size = 0;
+    TRY(checkpoint_read(shared->store, 0, &bytes, &size));
+    if (!bytes) return OK;
+    Archive archive = archive_reader(bytes, size);
+    archive_f64(&archive, &theorist->seconds_before, 1);
+    Status status = calculation_load(theorist->calculation, shared->results, &archive);
+    if (status == OK) status = archive_status(&archive, true);
+    free(bytes);
+    if (status == OK) return tell_where(theorist);
+    return status_fail(status, "checkpoint of the theory in %s: %s", store_directory(shared->store),
+                       status_sentence());
+}
+
+static Status stop_calculation(Theorist *theorist) {
+    if (!calculation_can_save(theorist->calculation))
+        return status_fail(INTERRUPTED,
+                           "no checkpoint is kept of this part of the theory, which begins anew");
+    TRY(save_calculation(theorist));
+    return status_fail(INTERRUPTED, "the theory stopped at a checkpoint");
+}
+
+static bool calculation_save_due(const Theorist *theorist) {
+    const EnsembleShared *shared = theorist->shared;
+    if (!calculation_can_save(theorist->calculation)) return false;
+    if (atomic_load(&shared->checkpoint_requests) != theorist->requests_seen) return true;
+    const double since = seconds_now() - theorist->last_checkpoint;
+    return since >= shared->plan->output.checkpoint_every;
+}
+
+// The one unit of a run of the theory, which alone puts results in.
+static Status run_calculation(Theorist *theorist) {
+    EnsembleShared *shared = theorist->shared;
+    TRY(load_calculation(theorist));
+    tell_calculation(theorist, true);
+    while (!calculation_finished(theorist->calculation)) {
+        if (atomic_load(&shared->stop)) return stop_calculation(theorist);
+        if (calculation_save_due(theorist)) TRY(save_calculation(theorist));
+        TRY(calculation_advance(theorist->calculation, shared->results));
+        tell_calculation(theorist, true);
     }
     return OK;
 }
 
 static Status unit_calculation(EnsembleShared *shared) {
-    Calculation *calculation = NULL;
-    TRY(calculation_create(&calculation, shared->plan));
-    const Status status = run_calculation(shared, calculation);
-    tell_calculation(shared, calculation, false);
-    calculation_free(calculation);
+    Theorist theorist = {.shared = shared,
+                         .last_checkpoint = seconds_now(),
+                         .requests_seen = atomic_load(&shared->checkpoint_requests)};
+    TRY(calculation_create(&theorist.calculation, shared->plan));
+    const Status status = run_calculation(&theorist);
+    tell_calculation(&theorist, false);
+    calculation_free(theorist.calculation);
     return status;
 }
 

@@ -117,3 +117,12 @@ double flow_normal_difference(const Flow *flow) {
 const double *flow_distortion(const Flow *flow) {
     return flow->distortion;
 }
+
+// `before` and `weight` are written anew at each look.
+void flow_archive(Flow *flow, Archive *archive) {
+    double *const sums[] = {&flow->time, &flow->modulus, &flow->normal_modulus, &flow->stress,
+                            &flow->normal_difference};
+    for (size_t i = 0; i < sizeof sums / sizeof *sums; i++) archive_f64(archive, sums[i], 1);
+    archive_f64(archive, flow->source, flow->plane->size);
+    archive_f64(archive, flow->distortion, flow->plane->size);
+}

@@ -4,6 +4,7 @@
 // after the start; for t -> infinity it is the stationary flow.
 #pragma once
 
+#include "base/archive.h"
 #include "itt/direct.h"
 #include "itt/plane.h"
 
@@ -19,3 +20,6 @@ double flow_modulus(const Flow *flow);           // G(t), now, in kT/d^2
 double flow_stress(const Flow *flow);            // sigma_xy, in kT/d^2
 double flow_normal_difference(const Flow *flow); // sigma_xx - sigma_yy
 const double *flow_distortion(const Flow *flow); // S_q - S_q at rest, a field
+
+// Saves all of it, or loads it into one created with the same arguments.
+void flow_archive(Flow *flow, Archive *archive);

@@ -301,6 +301,35 @@ Status itt_advance(Itt *itt, Results *results) {
     return work[itt->step](itt, results);
 }
 
+bool itt_can_save(const Itt *itt) {
+    return itt->step == STEP_TRANSIENTS && itt->transient;
+}
+
+static const uint64_t ITT_TAG = 0x4954543030303031; // "ITT00001"
+
+static void archive_transients(Itt *itt, Archive *archive) {
+    archive_tag(archive, ITT_TAG);
+    transient_archive(itt->transient, archive);
+    flow_archive(itt->flow, archive);
+    record_archive(&itt->record, archive);
+    archive_f64(archive, &itt->next_time, 1);
+    archive_f64(archive, &itt->before[0][0], 4);
+    archive_f64(archive, &itt->overshoot, 1);
+    archive_f64(archive, &itt->strain_at_overshoot, 1);
+}
+
+void itt_save(Itt *itt, Archive *archive) {
+    ASSERT(itt_can_save(itt));
+    archive_transients(itt, archive);
+}
+
+Status itt_load(Itt *itt, Results *results, Archive *archive) {
+    while (itt->step < STEP_TRANSIENTS) TRY(itt_advance(itt, results));
+    TRY(begin_transients(itt));
+    archive_transients(itt, archive);
+    return archive_status(archive, false);
+}
+
 bool itt_finished(const Itt *itt) {
     return itt->step == STEP_DONE;
 }

@@ -3,6 +3,7 @@
 // of it, in slices, into Results with the names and axes that the observables of a simulation have.
 #pragma once
 
+#include "base/archive.h"
 #include "base/option.h"
 #include "results/results.h"
 
@@ -44,3 +45,9 @@ bool itt_finished(const Itt *itt);
 double itt_progress(const Itt *itt);   // 0 to 1
 const char *itt_doing(const Itt *itt); // "transients"
 double itt_time(const Itt *itt);       // since shear began, in d^2/D0
+
+// While the transients go on they can be saved. Loaded into one of the same plan that has just been
+// created, the steps before are done again, and what follows has the bits of a run never stopped.
+bool itt_can_save(const Itt *itt);
+void itt_save(Itt *itt, Archive *archive);
+Status itt_load(Itt *itt, Results *results, Archive *archive);

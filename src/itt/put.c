@@ -46,6 +46,28 @@ void record_free(Record *r) {
     *r = (Record){0};
 }
 
+static void archive_count(Archive *archive, size_t *count, size_t most) {
+    uint64_t stored = *count;
+    archive_u64(archive, &stored, 1);
+    archive_require(archive, stored <= most, "more is kept than there is room for");
+    if (archive->status == OK) *count = stored;
+}
+
+void record_archive(Record *r, Archive *archive) {
+    const size_t directions = TRANSIENT_DIRECTIONS;
+    archive_count(archive, &r->times, r->times_most);
+    archive_count(archive, &r->strains, r->strains_most);
+    if (archive->status != OK) return;
+    archive_f64(archive, r->time, r->times);
+    archive_f64(archive, r->modulus, r->times);
+    archive_f64(archive, r->strain, r->strains);
+    archive_f64(archive, r->stress, 2 * r->strains);
+    archive_f64(archive, r->collective, r->times * directions * r->waves);
+    if (!r->tagged) return;
+    archive_f64(archive, r->tagged, r->times * directions * r->waves);
+    archive_f64(archive, r->displacement, r->times * directions);
+}
+
 Status record_put_number(Results *results, const char *name, const char *unit, const char *about,
                          double value) {
     return results_put_scalar(results, STAGE, name, unit, about, 0, value);

@@ -2,6 +2,7 @@
 // Results of the theory under shear: stage `theory`, one replica. Inside itt/ only.
 #pragma once
 
+#include "base/archive.h"
 #include "itt/itt.h"
 #include "itt/plane.h"
 #include "itt/transient.h"
@@ -20,6 +21,8 @@ typedef struct Record {
 // Room for these times and strains; which wave numbers is set by the caller.
 Status record_create(Record *record, size_t waves, size_t times, size_t strains, bool tagged);
 void record_free(Record *record);
+// Saves what is kept, or loads it where there is the same room.
+void record_archive(Record *record, Archive *archive);
 
 Status record_put(const Record *record, Results *results);
 Status record_put_number(Results *results, const char *name, const char *unit, const char *about,

@@ -143,3 +143,11 @@ void relaxation_decimate(Relaxation *r) {
     halve(r->phi, r->phi_mean, r->plane->size, r->block);
     halve(r->memory, r->memory_mean, r->plane->size, r->block);
 }
+
+void relaxation_archive(Relaxation *r, Archive *archive) {
+    const size_t size = r->plane->size;
+    archive_f64(archive, r->phi, (r->block + 1) * size);
+    archive_f64(archive, r->memory, (r->block + 1) * size);
+    archive_f64(archive, r->phi_mean, (r->block / 2 + 1) * size);
+    archive_f64(archive, r->memory_mean, (r->block / 2 + 1) * size);
+}

@@ -7,6 +7,7 @@
 // by its averages times differences of the kernel. Inside itt/ only.
 #pragma once
 
+#include "base/archive.h"
 #include "itt/plane.h"
 
 #include <stdbool.h>
@@ -41,3 +42,6 @@ double relaxation_iterate(Relaxation *relaxation, size_t i, bool first);
 
 // Every second point becomes the older half of the next block.
 void relaxation_decimate(Relaxation *relaxation);
+
+// Saves what the next time is found from, or loads it into one of the same plane and block.
+void relaxation_archive(Relaxation *relaxation, Archive *archive);

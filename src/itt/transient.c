@@ -198,3 +198,18 @@ double transient_displacement(const Transient *t, int direction) {
 size_t transient_evaluations(const Transient *t) {
     return t->evaluations;
 }
+
+void transient_archive(Transient *t, Archive *archive) {
+    uint64_t now = t->now, evaluations = t->evaluations;
+    archive_f64(archive, &t->step, 1);
+    archive_u64(archive, &now, 1);
+    archive_u64(archive, &evaluations, 1);
+    archive_require(archive, t->step > 0 && now <= t->block, "its time is none of the grid");
+    if (archive->status != OK) return;
+    t->now = now;
+    t->evaluations = evaluations;
+    relaxation_archive(&t->collective, archive);
+    if (!t->settings.tagged) return;
+    relaxation_archive(&t->tagged, archive);
+    walk_archive(&t->walk, archive);
+}

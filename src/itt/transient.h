@@ -5,6 +5,7 @@
 // displacements. Over any number of decades of time. A rate of 0 is rest.
 #pragma once
 
+#include "base/archive.h"
 #include "itt/direct.h"
 #include "itt/plane.h"
 
@@ -36,3 +37,6 @@ const double *transient_collective(const Transient *transient); // a field on th
 const double *transient_tagged(const Transient *transient);     // NULL if not wanted
 double transient_displacement(const Transient *transient, int direction);
 size_t transient_evaluations(const Transient *transient); // of the collective kernel
+
+// Saves all of it, or loads it into one created with the same arguments.
+void transient_archive(Transient *transient, Archive *archive);

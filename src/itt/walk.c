@@ -133,3 +133,13 @@ void walk_decimate(Walk *s) {
     halve_moment(&s->friction_moment[0][0][0], &s->friction_mean[0][0][0], 4, s->block);
     halve(&s->friction[0][0][0], &s->friction_mean[0][0][0], 4, s->block);
 }
+
+void walk_archive(Walk *s, Archive *archive) {
+    Friction *const frictions[] = {s->friction, s->friction_mean, s->friction_moment};
+    for (int d = 0; d < WALK_DIRECTIONS; d++) {
+        archive_f64(archive, s->value[d], s->block + 1);
+        archive_f64(archive, s->mean[d], s->block + 1);
+    }
+    for (size_t i = 0; i < sizeof frictions / sizeof *frictions; i++)
+        archive_f64(archive, &frictions[i][0][0][0], 4 * (s->block + 1));
+}

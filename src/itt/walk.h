@@ -6,7 +6,7 @@
 // dD/dt + int_0^t [e(t').K(t - t').e(t)/e(t')^2] dD/dt' dt' = 2 e(t)^2. Inside itt/ only.
 #pragma once
 
-#include "base/status.h"
+#include "base/archive.h"
 
 #include <stddef.h>
 
@@ -29,3 +29,6 @@ void walk_begin(Walk *walk, size_t i, double step, double shear);
 // Time i from what is known before and the friction at i; `shear` is the strain of an interval.
 void walk_advance(Walk *walk, size_t i, double step, double shear);
 void walk_decimate(Walk *walk);
+
+// Saves all of it, or loads it into one of the same block.
+void walk_archive(Walk *walk, Archive *archive);

@@ -65,3 +65,17 @@ double calculation_time(const Calculation *c) {
     if (c->schematic) return schematic_time(c->schematic);
     return theory_time(c->theory);
 }
+
+bool calculation_can_save(const Calculation *c) {
+    return c->itt && itt_can_save(c->itt);
+}
+
+void calculation_save(Calculation *c, Archive *archive) {
+    ASSERT(calculation_can_save(c));
+    itt_save(c->itt, archive);
+}
+
+Status calculation_load(Calculation *c, Results *results, Archive *archive) {
+    if (!c->itt) return status_fail(BAD_DATA, "a theory of this kind keeps no checkpoint");
+    return itt_load(c->itt, results, archive);
+}
