@@ -21,6 +21,7 @@ typedef struct Overshoot {
 } Overshoot;
 
 static const double NEAR_PEAK = 0.93; // of the highest stress: what the parabola is laid through
+static const double RISES_FROM = 0.5; // of it: a stage that begins above was flowing before
 enum { PEAK_LEAST = 5, ALL = -1, PARTS = 40 };
 
 static void mean_without(const ResultSeries *series, size_t replicas, int64_t left_out,
@@ -48,16 +49,18 @@ static double smooth(const StartUp *mean, size_t window) {
     return sum / number;
 }
 
-// Windows [begin, end) round the highest whose stress is near its, seen from either side.
-static void near_peak(const StartUp *mean, double sign, size_t *begin, size_t *end) {
+// Windows [begin, end) round the highest whose stress is near its, seen from either side; returns
+// the highest.
+static double near_peak(const StartUp *mean, double sign, size_t *begin, size_t *end) {
     size_t top = 0;
     for (size_t k = 1; k < mean->count; k++) {
         if (sign * smooth(mean, k) > sign * smooth(mean, top)) top = k;
     }
-    const double least = NEAR_PEAK * sign * smooth(mean, top);
+    const double highest = sign * smooth(mean, top), least = NEAR_PEAK * highest;
     *begin = *end = top;
     while (*begin > 0 && sign * smooth(mean, *begin - 1) > least) --*begin;
     while (*end < mean->count && sign * smooth(mean, *end) > least) ++*end;
+    return highest;
 }
 
 // The windows of the peak are those of the mean over all replicas. False if the parabola through
@@ -104,9 +107,11 @@ static Status derive_overshoot(Results *results, const ResultSeries *series, Sta
         mean->count--; // ended early
     if (mean->count < 4 * PEAK_LEAST) return OK;
     const double sign = smooth(mean, mean->count - 1) < 0 ? -1 : 1;
-    near_peak(mean, sign, &begin, &end);
+    const double highest = near_peak(mean, sign, &begin, &end);
     // Before it the stress must have been seen to rise, after it to fall.
-    if (begin == 0 || end >= mean->count / 2 || end - begin < PEAK_LEAST) return OK;
+    if (begin == 0 || sign * mean->stress[0] > RISES_FROM * highest || end >= mean->count / 2 ||
+        end - begin < PEAK_LEAST)
+        return OK;
     Overshoot all, *without = NULL;
     TRY(NEW_ARRAY(without, results->replicas));
     Status status = OK;

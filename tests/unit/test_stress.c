@@ -164,8 +164,9 @@ static double start_up(double time) {
     return (rise + hump) / RATE;
 }
 
-// Two replicas whose mean has its top in the seventh window, and which lean either way.
-static Results *leaning(double lean) {
+// Two replicas whose mean has its top in the seventh window, and which lean either way; the stress
+// rises to it from `first`.
+static Results *leaning(double lean, double first) {
     enum { WINDOWS = 40 };
     double strain[WINDOWS], stress[2][WINDOWS];
     static const char *const component[] = {"xy"};
@@ -174,7 +175,7 @@ static Results *leaning(double lean) {
         strain[k] = 0.05 * (k + 0.5);
         for (int r = 0; r < 2; r++) {
             const double leaned = top + (r == 0 ? lean : -lean) * off;
-            stress[r][k] = k < 4 ? 0.2 * k : k < 11 ? leaned : 0.5;
+            stress[r][k] = k < 4 ? first + (0.8 - first) * k / 4 : k < 11 ? leaned : 0.5;
         }
     }
     const ResultSeries shape = {
@@ -193,14 +194,22 @@ static Results *leaning(double lean) {
 
 // Where the parabola of one replica left out has no top among its windows, nothing is said of it.
 START_TEST(an_overshoot_that_cannot_be_placed_is_not_told) {
-    Results *results = leaning(0.01);
+    Results *results = leaning(0.01, 0);
     const ResultScalar *place = results_find_scalar(results, "shear", "overshoot_strain");
     ck_assert_ptr_nonnull(place);
     ck_assert_double_eq_tol((place->values[0] + place->values[1]) / 2, 0.05 * 7.5, 1e-9);
     results_free(results);
-    results = leaning(0.08);
+    results = leaning(0.08, 0);
     ck_assert_ptr_null(results_find_scalar(results, "shear", "overshoot_strain"));
     ck_assert_ptr_null(results_find_scalar(results, "shear", "overshoot_height"));
+    results_free(results);
+}
+END_TEST
+
+// A stage that goes on with a flow has highest windows, by chance, and no overshoot.
+START_TEST(what_flowed_before_has_no_overshoot) {
+    Results *results = leaning(0.01, 0.7);
+    ck_assert_ptr_null(results_find_scalar(results, "shear", "overshoot_strain"));
     results_free(results);
 }
 END_TEST
@@ -326,6 +335,7 @@ static Suite *suite(void) {
     tcase_add_loop_test(c, pairs_press_along_the_line_between_them, 0, 8);
     tcase_add_test(c, start_up_shows_its_overshoot);
     tcase_add_test(c, an_overshoot_that_cannot_be_placed_is_not_told);
+    tcase_add_test(c, what_flowed_before_has_no_overshoot);
     tcase_add_test(c, harmonics_of_an_oscillation_are_found);
     tcase_add_test(c, over_an_oscillation_the_shear_stress_has_no_mean);
     suite_add_tcase(s, c);
