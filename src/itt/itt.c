@@ -22,9 +22,8 @@ static const double UNFINISHED = 1e-3; // of the stress, in what its integral st
 
 static const double FIRST_STRAIN = 1e-3; // from which the stress is kept
 
-// Of the search for the glass transition: five digits of its packing fraction.
-enum { CRITICAL_WAVES = 203 };
-static const double CRITICAL_LAST = 40, CRITICAL_LOW = 0.6, CRITICAL_HIGH = 0.76;
+// Of the search for the glass transition: so many wave numbers for one of 1/d give five digits.
+static const double CRITICAL_WAVES = 16 / PI, CRITICAL_LOW = 0.6, CRITICAL_HIGH = 0.76;
 
 typedef enum Step { STEP_CRITICAL, STEP_STRUCTURE, STEP_TRANSIENTS, STEP_DONE } Step;
 
@@ -43,13 +42,16 @@ struct Itt {
     double overshoot, strain_at_overshoot; // 0: the stress has had no maximum yet
 };
 
+// Up to the cutoff of the plane, since closures move the transition with it: a state beside that of
+// another cutoff may be on the other side of its own.
 static Status find_critical(Itt *itt, Results *results) {
     CriticalPoint *point = NULL;
     const Measured *measured = itt->measured;
+    const double last = itt->plan->last_wave_number;
     const CriticalSearch search = {.mixture = itt_discs,
                                    .closure = (Closure)itt->plan->structure,
-                                   .count = CRITICAL_WAVES,
-                                   .last = CRITICAL_LAST,
+                                   .count = (size_t)(CRITICAL_WAVES * last),
+                                   .last = last,
                                    .low = measured ? measured_lowest(measured) : CRITICAL_LOW,
                                    .high = measured ? measured_highest(measured) : CRITICAL_HIGH,
                                    .measured = measured};
@@ -59,7 +61,9 @@ static Status find_critical(Itt *itt, Results *results) {
     itt->packing_fraction = critical * (1 + itt->plan->separation);
     itt->step = STEP_STRUCTURE;
     return record_put_number(results, "critical_packing_fraction", "",
-                             "Packing fraction of the glass transition at rest.", critical);
+                             "Packing fraction of the glass transition at rest, with wave numbers "
+                             "up to those of the plane.",
+                             critical);
 }
 
 // ---- Structure ---------------------------------------------------------------------------------

@@ -33,7 +33,7 @@ static const Option rows[] = {
      .most = 0.1,
      .unit = "",
      .about = "Packing fraction over that of the glass transition at rest, less 1; used where "
-              "packing_fraction is 0. The transition is found first."},
+              "packing_fraction is 0. The transition is found first, up to wave_numbers.last."},
     {.name = "wave_numbers.spacing",
      .type = OPTION_REAL,
      .offset = offsetof(IttPlan, spacing),
