@@ -10,6 +10,12 @@
 #include <math.h>
 #include <string.h>
 
+#if defined(__has_include) && __has_include(<sanitizer/asan_interface.h>)
+#include <sanitizer/asan_interface.h>
+#else
+#define ASAN_POISON_MEMORY_REGION(address, size) ((void)(address), (void)(size))
+#endif
+
 static const int64_t SNAPSHOT_WINDOWS = 16; // windows at most done again after a failed list
 // Rebuild this many thermal flights of a window before the end of the skin: few where one window
 // does not tell of the next, more where the fastest particle goes on.
@@ -24,8 +30,12 @@ static const double BUCKETS = 25; // per particle in a time of d sqrt(m/kT): one
 void *engine_room_take(Room *room, size_t bytes) {
     // Arrays that begin at the same place of a page would contend for the same lines of the cache.
     static const size_t APART = 5 * MEMORY_ALIGNMENT;
-    void *array = room->base ? room->base + room->used : NULL;
-    room->used += (bytes + MEMORY_ALIGNMENT - 1) / MEMORY_ALIGNMENT * MEMORY_ALIGNMENT + APART;
+    const size_t taken =
+        (bytes + MEMORY_ALIGNMENT - 1) / MEMORY_ALIGNMENT * MEMORY_ALIGNMENT + APART;
+    char *array = room->base ? room->base + room->used : NULL;
+    // To the sanitizer what lies between two arrays is as wrong as what lies behind one of its own.
+    if (array) ASAN_POISON_MEMORY_REGION(array + bytes, taken - bytes);
+    room->used += taken;
     return array;
 }
 
