@@ -161,10 +161,7 @@ static Status extrapolate_angles(const ResultSeries *series, const size_t *windo
 static Status put_angles(Results *results, size_t at, const size_t *windows, double *contact) {
     for (size_t replica = 0; replica < results->replicas; replica++) {
         const ResultSeries *series = &results->series[at]; // moves when another is put
-        ResultSeries shape = {.about = "Partial pair distribution at contact by the direction of "
-                                       "the pair, from the x axis towards the y axis.",
-                              .axes = 2,
-                              .axis = {series->axis[0], series->axis[1]}};
+        ResultSeries shape = {.axes = 2, .axis = {series->axis[0], series->axis[1]}};
         snprintf(shape.stage, sizeof shape.stage, "%s", series->stage);
         strcpy(shape.observable, "contact_angle");
         TRY(extrapolate_angles(series, windows, replica, contact));

@@ -49,7 +49,7 @@ static void jackknife(const Results *results, const Element *first, const Elemen
 
 // Of each element of two series of one shape.
 typedef struct Function {
-    const char *name, *about;
+    const char *name, *about; // NULL: what the name means
     const ResultSeries *first, *second;
     size_t times; // not 0: the second stands at the first of so many times, which are the last axis
     double (*constant_of)(const ResultSeries *series, size_t element, const System *system);
@@ -73,7 +73,7 @@ static Status put(Results *results, const Function *function, const System *syst
     TRY(NEW_ARRAY(values, results->replicas * shape.size));
     fill(results, function, system, values);
     snprintf(shape.observable, sizeof shape.observable, "%s", function->name);
-    snprintf(shape.about, sizeof shape.about, "%s", function->about);
+    if (function->about) snprintf(shape.about, sizeof shape.about, "%s", function->about);
     shape.unit[0] = '\0';
     Status status = OK;
     for (size_t r = 0; r < results->replicas && status == OK; r++) {
@@ -100,13 +100,7 @@ static Status normalise(Results *results, const ResultSeries *ends, const char *
     const ResultSeries *scattering = results_find_series(results, ends->stage, observable);
     if (!scattering || scattering->size != ends->size) return OK;
     const Function function = {
-        .name = name,
-        .about = "Collective intermediate scattering functions over structure factors, "
-                 "F_ab(q,t)/S_ab(q), both of the same configurations.",
-        .first = scattering,
-        .second = ends,
-        .constant_of = no_constant,
-        .of = ratio};
+        .name = name, .first = scattering, .second = ends, .constant_of = no_constant, .of = ratio};
     return put(results, &function, NULL);
 }
 
@@ -121,15 +115,12 @@ Status derive_centred_scattering(Results *results, const ResultSeries *ends) {
 
 // Over the structure factor of the time origins: where the flow takes q, there is another.
 Status derive_normalised_advected(Results *results, const ResultSeries *scattering) {
-    const Function function = {
-        .name = "advected_scattering_normalised",
-        .about = "Collective intermediate scattering functions along directions under shear, over "
-                 "the structure factor at the time origin, F_ab(q,t)/S_ab(q).",
-        .first = scattering,
-        .second = scattering,
-        .times = scattering->axis[scattering->axes - 1].count,
-        .constant_of = no_constant,
-        .of = ratio};
+    const Function function = {.name = "advected_scattering_normalised",
+                               .first = scattering,
+                               .second = scattering,
+                               .times = scattering->axis[scattering->axes - 1].count,
+                               .constant_of = no_constant,
+                               .of = ratio};
     return put(results, &function, NULL);
 }
 
@@ -147,14 +138,11 @@ Status derive_non_gaussian(Results *results, const ResultSeries *quartic, const 
     const ResultSeries *squared =
         results_find_series(results, quartic->stage, "squared_displacement");
     if (!squared || squared->size != quartic->size) return OK;
-    const Function function = {
-        .name = "non_gaussian_parameter",
-        .about = "alpha_2 = dim <r^4>/((dim + 2) <r^2>^2) - 1 of the displacements; 0 if they are "
-                 "Gaussian.",
-        .first = quartic,
-        .second = squared,
-        .constant_of = dimension_of,
-        .of = non_gaussian};
+    const Function function = {.name = "non_gaussian_parameter",
+                               .first = quartic,
+                               .second = squared,
+                               .constant_of = dimension_of,
+                               .of = non_gaussian};
     return put(results, &function, system);
 }
 

@@ -97,8 +97,6 @@ Status derive_moduli(Results *results, const ResultSeries *wandering, const Syst
     const size_t count = choose_frequencies(time, frequencies);
     ResultSeries shape = {
         .observable = "moduli_at_rest",
-        .about = "Storage (elastic) and loss modulus (viscous) against angular frequency that the "
-                 "fluctuations of the stress at rest foretell for small oscillations.",
         .axes = 2,
         .axis = {{.name = "part", .unit = "", .count = 2, .labels = parts},
                  {.name = "frequency", .unit = "D0/d^2", .count = count, .values = frequencies}}};

@@ -37,13 +37,11 @@ static Status put_slopes(Results *results, const Curve *curve, const System *sys
                          double *times) {
     const size_t count = curve->lags - 1;
     for (size_t k = 0; k < count; k++) times[k] = (curve->times[k] + curve->times[k + 1]) / 2;
-    ResultSeries shape = {
-        .about = "Viscosity eta(t) that shows within a time t: slope of stress_wandering.",
-        .axes = 1,
-        .axis = {{.name = "time",
-                  .unit = curve->series->axis[0].unit,
-                  .count = count,
-                  .values = times}}};
+    ResultSeries shape = {.axes = 1,
+                          .axis = {{.name = "time",
+                                    .unit = curve->series->axis[0].unit,
+                                    .count = count,
+                                    .values = times}}};
     snprintf(shape.stage, sizeof shape.stage, "%s", curve->series->stage);
     strcpy(shape.observable, "viscosity");
     strcpy(shape.unit, unit_of(system));

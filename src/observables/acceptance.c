@@ -214,8 +214,6 @@ static Status put_acceptances(const Slot *slot, const double *times, double *val
     }
     const ResultSeries shape = {
         .unit = "",
-        .about = "Fraction of the trials that were accepted, in blocks of the stage; time is the "
-                 "middle of a block.",
         .axes = 2,
         .axis = {
             {.name = "species", .unit = "", .count = system->species_count, .labels = labels.names},
@@ -236,8 +234,6 @@ static Status put_cycles(const Slot *slot, const double *times, double *values) 
         values[b] = (double)acceptance->period * clock->tick * (double)slot->state->count / sum;
     }
     ResultSeries shape = {
-        .about = "Time that a cycle was worth, in blocks of the stage; time is the middle of a "
-                 "block.",
         .axes = 1,
         .axis = {
             {.name = "time", .unit = clock->unit, .count = acceptance->blocks, .values = times}}};

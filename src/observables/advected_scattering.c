@@ -359,9 +359,6 @@ static Status write(const Observer *observer, const State *state, Results *resul
     if (status == OK) status = NEW_ARRAY(times, lags_axis_values(lags) + 1);
     ResultSeries shape = {
         .unit = "",
-        .about = "Collective intermediate scattering functions F_ab(q,t) along directions, with "
-                 "wave vectors that go with the flow; total: over all ordered pairs; at t = 0 the "
-                 "structure factor.",
         .axes = 3,
         .axis = {{.name = "pair", .unit = "", .count = pairs.count, .labels = pairs.names},
                  {.name = "direction", .unit = "", .count = PLANE_CUTS, .labels = plane_cut_names},

@@ -246,18 +246,12 @@ static Status put(const Angular *self, const Axes *axes, const double *harmonics
                   const double *angles, Results *results, size_t replica) {
     const ResultSeries of_harmonics = {
         .unit = "",
-        .about = "Harmonics of g_ab by direction: its mean over all directions, and what stands "
-                 "before 2xy/r^2 and (x^2 - y^2)/r^2.",
         .axes = 3,
         .axis = {axes->pair,
                  {.name = "harmonic", .unit = "", .count = HARMONICS, .labels = harmonic_names},
                  axes->distance}};
     const ResultSeries of_angles = {
-        .unit = "",
-        .about = "Partial pair distribution g_ab against distance and the angle to x in the plane "
-                 "of flow and gradient.",
-        .axes = 3,
-        .axis = {axes->pair, axes->distance, axes->angle}};
+        .unit = "", .axes = 3, .axis = {axes->pair, axes->distance, axes->angle}};
     TRY(observer_put_series(&self->observer, "pair_harmonics", &of_harmonics, results, replica,
                             harmonics));
     return observer_put_series(&self->observer, "angular_pair_distribution", &of_angles, results,

@@ -152,7 +152,6 @@ static Status put(const AxisLags *self, const Labels *labels, double *values, do
              .count = lags->count,
              .values = times}}};
     snprintf(shape.unit, sizeof shape.unit, "%s", what->unit);
-    snprintf(shape.about, sizeof shape.about, "%s", what->about);
     return observer_put_series(&self->observer, what->kind->name, &shape, results, replica, values);
 }
 

@@ -22,7 +22,7 @@ typedef struct AxisCorrelation {
     const char *rows_name; // axis of the series that tells the rows apart
     const char *const *row_names;
     size_t rows;
-    const char *unit, *about;
+    const char *unit;
 } AxisCorrelation;
 
 typedef struct LagSettingsAlone {

@@ -266,8 +266,6 @@ static Status put_looks(const BondOrder *self, double *times_seen, Results *resu
     }
     const ResultSeries shape = {
         .unit = "",
-        .about = "Bond-orientational order: psi_6 in two dimensions, q_6 in three; the mean of "
-                 "each particle's own, and that of all together.",
         .axes = 2,
         .axis = {
             {.name = "order", .unit = "", .count = ORDERS, .labels = orders},

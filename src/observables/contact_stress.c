@@ -223,8 +223,6 @@ static Status put_stress(const ContactStress *self, const State *state, double *
     }
     for (size_t k = 0; k < self->bins; k++) centres[k] = 1 + ((double)k + 0.5) * self->spacing;
     ResultSeries shape = {
-        .about = "Stress that pairs at this distance over contact distance would carry if they "
-                 "touched; extrapolated to 1 it is the stress.",
         .axes = 2,
         .axis = {{.name = "element", .unit = "", .count = count, .labels = names},
                  {.name = "scaled_distance", .unit = "", .count = self->bins, .values = centres}}};
@@ -272,8 +270,6 @@ static Status put_angles(const ContactStress *self, const State *state, double *
     }
     const ResultSeries shape = {
         .unit = "",
-        .about = "Partial pair distribution near contact by the direction of the pair, from the x "
-                 "axis towards the y axis.",
         .axes = 3,
         .axis = {{.name = "pair", .unit = "", .count = labels.count, .labels = labels.names},
                  {.name = "angle", .unit = "", .count = self->angles, .values = angles},

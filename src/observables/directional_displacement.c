@@ -63,8 +63,6 @@ static const AxisCorrelation what = {
     .row_names = directions,
     .rows = sizeof directions / sizeof *directions,
     .unit = "d^2",
-    .about = "Mean squared displacement along and (mean of two directions) across the body axis "
-             "and the director, both at the time origin.",
 };
 
 AXIS_CORRELATION(directional_displacement,

@@ -163,7 +163,6 @@ static Status put_looks(const Energy *energy, double *times, Results *results, s
     }
     const ResultSeries shape = {
         .unit = "kT",
-        .about = "Energy per particle.",
         .axes = 1,
         .axis = {{.name = "time", .unit = clock->unit, .count = energy->looks, .values = times}}};
     return observer_put_series(&energy->observer, "energy", &shape, results, replica,

@@ -214,7 +214,6 @@ static Status put_free_diffusion(const Msd *msd, const State *state, const Label
     }
     const ResultSeries shape = {
         .unit = "D0",
-        .about = "Diffusion coefficient of each species alone, mean over directions.",
         .axes = 1,
         .axis = {
             {.name = "species", .unit = "", .count = species->count, .labels = species->names}}};

@@ -218,8 +218,6 @@ static Status put_blocks(const NematicOrder *self, const Labels *labels, double 
     }
     const ResultSeries shape = {
         .unit = "",
-        .about = "Nematic order in blocks of the stage, from the largest eigenvalue of Q and from "
-                 "-2 times the middle one; time is the middle of a block.",
         .axes = 3,
         .axis = {{.name = "species", .unit = "", .count = labels->count, .labels = labels->names},
                  {.name = "estimator", .unit = "", .count = ESTIMATORS, .labels = estimators},
@@ -249,8 +247,6 @@ static Status put_director(const NematicOrder *self, const Labels *labels, Resul
     for (size_t l = 0; l < self->labels; l++) find_director(self, l, directors[l]);
     const ResultSeries shape = {
         .unit = "",
-        .about = "Director of Q averaged over the stage. Every replica has its own: their mean has "
-                 "no meaning.",
         .axes = 2,
         .axis = {{.name = "species", .unit = "", .count = labels->count, .labels = labels->names},
                  {.name = "direction", .unit = "", .count = 3, .labels = directions}}};

@@ -91,8 +91,6 @@ static Status put(const Motion *self, const Labels *species, double *values, dou
     fill(self, species->count, values);
     ResultSeries shape = {
         .unit = "d^2",
-        .about = "Non-affine displacements <dx^2>, <dy^2> and <dx dy> over particles and time "
-                 "origins, dx = x(t) - strain y(t) - x(0).",
         .axes = 2,
         .axis = {{.name = "species", .unit = "", .count = species->count, .labels = species->names},
                  {.name = "direction",

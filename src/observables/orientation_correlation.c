@@ -57,8 +57,6 @@ static const AxisCorrelation what = {
     .row_names = polynomials,
     .rows = sizeof polynomials / sizeof *polynomials,
     .unit = "",
-    .about = "Orientational correlation <P(u(t).u(0))> of the body axes with the Legendre "
-             "polynomials P1 and P2, over particles and time origins.",
 };
 
 AXIS_CORRELATION(orientation_correlation,

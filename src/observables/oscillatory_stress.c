@@ -183,9 +183,7 @@ static Status put_cycle(const Oscillatory *self, const State *state, double *val
         values[k] = self->sums[k] / (double)self->counts[k];
     }
     ResultSeries shape = {
-        .about = "Shear stress over the cycle: the strain is that of the middle of each part.",
-        .axes = 1,
-        .axis = {{.name = "phase", .unit = "", .count = self->phases, .values = phase}}};
+        .axes = 1, .axis = {{.name = "phase", .unit = "", .count = self->phases, .values = phase}}};
     strcpy(shape.unit, stress_unit(state->box.dimension));
     TRY(observer_put_series(&self->observer, "stress_cycle", &shape, results, replica, values));
     // A closed curve: parts of the cycle in their order, the first again at the end.
@@ -208,9 +206,6 @@ static Status put_harmonics(const Oscillatory *self, const State *state, Results
         for (int part = 0; part < 2; part++) moduli[part][n] = factor * self->waves[part][n];
     }
     ResultSeries shape = {
-        .about =
-            "Moduli G'_n (elastic) and G''_n (viscous) of the harmonics of the stress; of n = 1 "
-            "the storage and the loss modulus.",
         .axes = 2,
         .axis = {{.name = "part", .unit = "", .count = 2, .labels = parts},
                  {.name = "harmonic", .unit = "", .count = HARMONICS, .values = orders}}};

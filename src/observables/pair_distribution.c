@@ -256,7 +256,6 @@ static Status put_distribution(const PairDistribution *self, const State *state,
     fill(self, &self->far, state, false, values, centres);
     const ResultSeries shape = {
         .unit = "",
-        .about = "Partial pair distribution g_ab(r), relative to an ideal gas of as many pairs.",
         .axes = 2,
         .axis = {{.name = "pair", .unit = "", .count = labels->count, .labels = labels->names},
                  {.name = "distance", .unit = "d", .count = self->far.bins, .values = centres}}};
@@ -269,7 +268,6 @@ static Status put_contact(const PairDistribution *self, const State *state, cons
     fill(self, &self->near, state, true, values, centres);
     const ResultSeries shape = {
         .unit = "",
-        .about = "Partial pair distribution against distance over contact distance, r/d_ij.",
         .axes = 2,
         .axis = {
             {.name = "pair", .unit = "", .count = labels->count, .labels = labels->names},
@@ -284,7 +282,6 @@ static Status put_weights(const PairDistribution *self, const State *state, cons
     pair_sums_weights(state, weights);
     const ResultSeries shape = {
         .unit = "",
-        .about = "Weights w of the contact values in P V/(N kT) = 1 + sum of w_ab g_ab(contact).",
         .axes = 1,
         .axis = {{.name = "pair", .unit = "", .count = labels->count, .labels = labels->names}}};
     return observer_put_series(&self->observer, "contact_weight", &shape, results, replica,

@@ -227,8 +227,6 @@ static Status put_picture(const Planar *self, const Labels *pairs, size_t partic
     for (size_t k = 0; k < shape->side; k++) along[k] = plane_pixel_centre(shape, k);
     const ResultSeries series = {
         .unit = "",
-        .about = "Partial structure factors S_ab(q) = <rho_a* rho_b>/N on the plane of q_x and "
-                 "q_y; total: their sum over all ordered pairs.",
         .axes = 3,
         .axis = {{.name = "pair", .unit = "", .count = pairs->count, .labels = pairs->names},
                  {.name = "wave_number_x", .unit = "1/d", .count = shape->side, .values = along},
@@ -250,7 +248,6 @@ static Status put_cuts(const Planar *self, const Labels *pairs, size_t particles
     for (size_t k = 0; k < shape->cut_bins; k++) along[k] = ((double)k + 0.5) * shape->cut_spacing;
     const ResultSeries series = {
         .unit = "",
-        .about = "Cuts through the plane of the structure factors: along x, y and the diagonals.",
         .axes = 3,
         .axis = {
             {.name = "pair", .unit = "", .count = pairs->count, .labels = pairs->names},

@@ -154,7 +154,6 @@ static Status put_blocks(const Pressure *pressure, const State *state, double *v
             b < pressure->done ? density * compressibility(pressure, state, b, b + 1) : (double)NAN;
     }
     ResultSeries shape = {
-        .about = "Pressure from collisions in blocks of the stage; time is the middle of a block.",
         .axes = 1,
         .axis = {
             {.name = "time", .unit = clock->unit, .count = pressure->blocks, .values = times}}};

@@ -224,11 +224,7 @@ static Status put_curves(const Tracer *tracer, double *values, Results *results,
     }
     const ResultAxis time = {
         .name = "time", .unit = tracer->observer.clock.unit, .count = looks, .values = times};
-    ResultSeries shape = {.unit = "d",
-                          .about = "Displacement of the tracer along the force since it came on; "
-                                   "trajectories that have ended by distance are not in it.",
-                          .axes = 1,
-                          .axis = {time}};
+    ResultSeries shape = {.unit = "d", .axes = 1, .axis = {time}};
     TRY(observer_put_series(&tracer->observer, "tracer_displacement", &shape, results, replica,
                             values));
     for (size_t k = 0; k < looks; k++) {
@@ -238,8 +234,6 @@ static Status put_curves(const Tracer *tracer, double *values, Results *results,
     }
     shape = (ResultSeries){
         .unit = "d^2",
-        .about =
-            "Mean square displacement of the tracer along the force and in a direction across.",
         .axes = 2,
         .axis = {{.name = "direction", .unit = "", .count = SQUARES, .labels = directions}, time}};
     return observer_put_series(&tracer->observer, "tracer_square_displacement", &shape, results,
@@ -253,8 +247,6 @@ static Status put_passage(const Tracer *tracer, const System *system, Results *r
     const Pull *pull = &clock->drive->pull;
     const ResultSeries shape = {
         .unit = "d; d^2/D0",
-        .about = "Distance and time of the tracer, summed over trajectories, from when it is taken "
-                 "to be steady on, in parts of a trajectory.",
         .axes = 2,
         .axis = {{.name = "quantity", .unit = "", .count = 2, .labels = quantities},
                  {.name = "begin", .unit = "", .count = BEGINS, .values = BEGIN}}};
@@ -274,7 +266,6 @@ static Status put_settling(const Tracer *tracer, Results *results, size_t replic
     for (size_t k = 0; k < settling->rounds; k++) cycles[k] = (double)(k + 1) * settling->cycles;
     ResultSeries shape = {
         .unit = "d",
-        .about = "Step of the tracer while it is adjusted, before the stage, against cycles.",
         .axes = 1,
         .axis = {{.name = "cycles", .unit = "", .count = settling->rounds, .values = cycles}}};
     TRY(observer_put_series(&tracer->observer, "tracer_step", &shape, results, replica,

@@ -126,9 +126,6 @@ static Status put_particles(const Snapshot *snapshot, const double *ids, Results
         "x", "y", "z", "diameter", "species", "length", "axis_x", "axis_y", "axis_z"};
     const ResultSeries shape = {
         .unit = "d",
-        .about = "Folded positions, diameters, and the number of the species (from 0) of the "
-                 "particles of one replica; of bodies with an axis the length and the unit vector "
-                 "along it, of others zeros.",
         .axes = 2,
         .axis = {{.name = "particle", .unit = "", .count = snapshot->particles, .values = ids},
                  {.name = "column", .unit = "", .count = snapshot->columns, .labels = columns}}};
@@ -141,7 +138,6 @@ static const char *const directions[3] = {"x", "y", "z"};
 static Status put_director(const Snapshot *snapshot, Results *results, size_t replica) {
     const ResultSeries shape = {
         .unit = "",
-        .about = "Director of the body axes of the snapshot; its sign has no meaning.",
         .axes = 1,
         .axis = {{.name = "direction", .unit = "", .count = 3, .labels = directions}}};
     return observer_put_series(&snapshot->observer, "snapshot_director", &shape, results, replica,
@@ -150,7 +146,6 @@ static Status put_director(const Snapshot *snapshot, Results *results, size_t re
 
 static Status put_box(const Snapshot *snapshot, const Box *box, Results *results, size_t replica) {
     const ResultSeries shape = {.unit = "d",
-                                .about = "Edges of the box.",
                                 .axes = 1,
                                 .axis = {{.name = "direction",
                                           .unit = "",

@@ -216,8 +216,6 @@ static Status put_windows(const Stress *self, const State *state, double *values
         }
     }
     ResultSeries shape = {
-        .about = "Stress in windows of the stage, at their middles; strain is counted from the "
-                 "start of the stage.",
         .axes = 2,
         .axis = {{.name = "stress", .unit = "", .count = kinds, .labels = stress_names},
                  {.name = rate != 0 ? "strain" : "time",

@@ -228,12 +228,9 @@ static Status put(const StructureFactor *self, const State *state, const Filled 
                              .count = filled->filled,
                              .values = filled->wave_numbers};
     const ResultSeries whole = {
-        .about = "Partial structure factors S_ab(q) = <rho_a* rho_b>/N; total: their sum over all "
-                 "ordered pairs.",
         .axes = 2,
         .axis = {{.name = "pair", .unit = "", .count = pairs.count, .labels = pairs.names}, wave}};
     const ResultSeries stretches = {
-        .about = "Total structure factor in stretches of the stage, at their ends.",
         .axes = 2,
         .axis = {wave,
                  {.name = "time", .unit = clock->unit, .count = self->stretches, .values = times}}};

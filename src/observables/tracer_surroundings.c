@@ -231,7 +231,6 @@ static Status put_maps(const Rings *rings, const State *state, double *values, R
     }
     ResultSeries shape = {
         .unit = "",
-        .about = "Density of the bath round the tracer over its mean, in rings about the force.",
         .axes = 2,
         .axis = {{.name = "along", .unit = "d", .count = rings->along, .values = along},
                  {.name = "across", .unit = "d", .count = rings->across, .values = across}}};

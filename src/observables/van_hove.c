@@ -126,8 +126,6 @@ static Status put(const VanHove *self, const Labels *species, double *values, do
     for (size_t bin = 0; bin < self->bins; bin++)
         distances[bin] = ((double)bin + 0.5) * self->spacing;
     ResultSeries shape = {
-        .about = "Self part of the van Hove function: probability density of a displacement of "
-                 "length r, in any direction, after a time t.",
         .axes = 1,
         .axis = {
             {.name = "species", .unit = "", .count = species->count, .labels = species->names}}};

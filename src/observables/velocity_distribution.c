@@ -162,8 +162,6 @@ static Status put(const Velocities *velocities, const Labels *species, double *v
     fill(velocities, species->count, values, centres);
     const ResultSeries shape = {
         .unit = "",
-        .about = "Probability density of a velocity component u = v sqrt(m/kT); Maxwell: "
-                 "exp(-u^2/2)/sqrt(2 pi).",
         .axes = 2,
         .axis = {{.name = "species", .unit = "", .count = species->count, .labels = species->names},
                  {.name = "velocity",

@@ -126,7 +126,6 @@ static Status put(const Profile *self, const State *state, double *velocity, dou
     }
     const ResultSeries shape = {
         .unit = "D0/d",
-        .about = "Mean velocity along x of the particles in layers across the flow.",
         .axes = 1,
         .axis = {{.name = "height", .unit = "d", .count = self->bins, .values = heights}}};
     TRY(observer_put_series(&self->observer, "velocity_profile", &shape, results, replica,

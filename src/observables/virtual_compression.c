@@ -237,8 +237,6 @@ static Status write(const Observer *observer, const State *state, Results *resul
         fill(self, (double)state->count, values, centres);
         const ResultSeries shape = {
             .unit = "",
-            .about = "Pairs that meet when distances are divided by the scale s, per particle and "
-                     "s^3; extrapolated to s = 1: P V/(N kT) - 1.",
             .axes = 1,
             .axis = {{.name = "scale", .unit = "", .count = self->bins, .values = centres}}};
         status =

@@ -114,7 +114,8 @@ static Status fill_series(ResultSeries *series, const ResultSeries *shape, size_
     TRY(keep_name(series->stage, shape->stage));
     TRY(keep_name(series->observable, shape->observable));
     TRY(KEEP_TEXT(series->unit, shape->unit));
-    TRY(KEEP_TEXT(series->about, shape->about));
+    const ResultMeaning *meaning = result_series_meaning(shape->observable);
+    TRY(KEEP_TEXT(series->about, shape->about[0] || !meaning ? shape->about : meaning->about));
     ASSERT(shape->axes <= RESULT_AXES);
     series->size = 1;
     for (size_t a = 0; a < shape->axes; a++) {

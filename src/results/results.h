@@ -83,7 +83,8 @@ Status results_create(Results **out, size_t replicas);
 void results_free(Results *results);
 
 // Puts one replica's values in place; the first call for a name makes the entry, with copies of
-// the axes, and fills the others with NaN. `shape` has stage, observable, unit, about, axes, axis.
+// the axes, and fills the others with NaN. `shape` has stage, observable, unit, about, axes, axis;
+// without `about` the sentence is that of series.def, if it has one.
 Status results_put_series(Results *results, const ResultSeries *shape, size_t replica,
                           const double *values);
 // One element of a series, by its place among the replica's values.

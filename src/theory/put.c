@@ -37,6 +37,7 @@ static void label_species(Labels *labels, const TheoryPlan *plan) {
     for (size_t a = 0; a < plan->species_count; a++) append(labels, plan->species[a].name, "", "");
 }
 
+// `about` where the name stands for something else in a simulation; else empty.
 static ResultSeries shape_of(const char *name, const char *unit, const char *about) {
     ResultSeries shape = {.stage = STAGE};
     snprintf(shape.observable, sizeof shape.observable, "%s", name);
@@ -75,11 +76,11 @@ static void fill_total(const TheoryPlan *plan, double *all, size_t count) {
     }
 }
 
-Status put_pairs(Results *results, const TheoryPlan *plan, const char *name, const char *about,
+Status put_pairs(Results *results, const TheoryPlan *plan, const char *name,
                  const double *wave_number, size_t count, const double *values) {
     Labels labels;
     double *all = NULL;
-    ResultSeries shape = shape_of(name, "", about);
+    ResultSeries shape = shape_of(name, "", "");
     label_pairs(&labels, plan);
     TRY(NEW_ARRAY(all, labels.count * count));
     memcpy(all, values, (labels.count - 1) * count * sizeof *all);
@@ -91,10 +92,10 @@ Status put_pairs(Results *results, const TheoryPlan *plan, const char *name, con
     return status;
 }
 
-Status put_species(Results *results, const TheoryPlan *plan, const char *name, const char *about,
+Status put_species(Results *results, const TheoryPlan *plan, const char *name,
                    const double *wave_number, size_t count, const double *values) {
     Labels labels;
-    ResultSeries shape = shape_of(name, "", about);
+    ResultSeries shape = shape_of(name, "", "");
     label_species(&labels, plan);
     add_axis(&shape, labels_axis("species", &labels));
     add_axis(&shape, wave_axis(wave_number, count));
@@ -137,16 +138,16 @@ Status put_slot(Results *results, const char *name, const char *about, size_t sl
     return results_put_scalar(results, STAGE, name, "", about, slot, value);
 }
 
-Status put_curve(Results *results, const char *name, const char *about, const char *unit_of_time,
-                 const double *time, size_t count, const double *values) {
-    ResultSeries shape = shape_of(name, "", about);
+Status put_curve(Results *results, const char *name, const char *unit_of_time, const double *time,
+                 size_t count, const double *values) {
+    ResultSeries shape = shape_of(name, "", "");
     add_axis(&shape, time_axis(unit_of_time, time, count));
     return results_put_series(results, &shape, 0, values);
 }
 
-Status put_rates(Results *results, const char *name, const char *about, const TheoryPlan *plan,
-                 const double *rate, size_t count, const double *stress) {
-    ResultSeries shape = shape_of(name, plan->dimension == 2 ? "kT/d^2" : "kT/d^3", about);
+Status put_rates(Results *results, const char *name, const TheoryPlan *plan, const double *rate,
+                 size_t count, const double *stress) {
+    ResultSeries shape = shape_of(name, plan->dimension == 2 ? "kT/d^2" : "kT/d^3", "");
     add_axis(&shape,
              (ResultAxis){.name = "shear_rate", .unit = "D0/d^2", .count = count, .values = rate});
     return results_put_series(results, &shape, 0, stress);
@@ -160,9 +161,9 @@ static void turn(const double *kept, size_t times, size_t lines, double *out) {
 }
 
 static Status put_collective(Results *results, const TheoryPlan *plan, const Kept *kept,
-                             const char *name, const char *about, double *values) {
+                             const char *name, double *values) {
     Labels labels;
-    ResultSeries shape = shape_of(name, "", about);
+    ResultSeries shape = shape_of(name, "", "");
     label_pairs(&labels, plan);
     turn(kept->collective, kept->times, (labels.count - 1) * kept->waves, values);
     fill_total(plan, values, kept->waves * kept->times);
@@ -200,11 +201,11 @@ static Status put_displacement(Results *results, const TheoryPlan *plan, const K
     return results_put_series(results, &shape, 0, values);
 }
 
-Status put_kept(Results *results, const TheoryPlan *plan, const Kept *kept, const char *collective,
-                const char *about) {
+Status put_kept(Results *results, const TheoryPlan *plan, const Kept *kept,
+                const char *collective) {
     double *values = NULL;
     TRY(NEW_ARRAY(values, (MIXTURE_PAIRS_MOST + 1) * kept->waves * kept->times));
-    Status status = put_collective(results, plan, kept, collective, about, values);
+    Status status = put_collective(results, plan, kept, collective, values);
     if (status == OK && kept->self) status = put_self(results, plan, kept, values);
     if (status == OK && kept->self) status = put_displacement(results, plan, kept, values);
     memory_free(values);
@@ -231,9 +232,9 @@ static void normalise(const TheoryPlan *plan, const Kept *kept, double *values) 
 Status put_normalised(Results *results, const TheoryPlan *plan, const Kept *kept) {
     Labels labels;
     double *values = NULL;
-    ResultSeries shape = shape_of("collective_scattering_normalised", "",
-                                  "Collective intermediate scattering functions, each over its "
-                                  "value at t = 0.");
+    ResultSeries shape =
+        shape_of("collective_scattering_normalised", "",
+                 "Collective intermediate scattering functions, each over its value at t = 0.");
     label_pairs(&labels, plan);
     TRY(NEW_ARRAY(values, labels.count * kept->waves * kept->times));
     turn(kept->collective, kept->times, (labels.count - 1) * kept->waves, values);

@@ -6,11 +6,13 @@
 #include "oz/oz.h"
 #include "theory/theory.h"
 
+// What series mean is in results/series.def.
+
 // Series on the axes pair and wave_number, values [pair][count].
-Status put_pairs(Results *results, const TheoryPlan *plan, const char *name, const char *about,
+Status put_pairs(Results *results, const TheoryPlan *plan, const char *name,
                  const double *wave_number, size_t count, const double *values);
 // On species and wave_number, values [species][count].
-Status put_species(Results *results, const TheoryPlan *plan, const char *name, const char *about,
+Status put_species(Results *results, const TheoryPlan *plan, const char *name,
                    const double *wave_number, size_t count, const double *values);
 // One value per species.
 Status put_each(Results *results, const TheoryPlan *plan, const char *name, const char *unit,
@@ -22,11 +24,11 @@ Status put_number(Results *results, const char *name, const char *unit, const ch
 Status put_contacts(Results *results, const TheoryPlan *plan, const Structure *structure);
 // One value of several that together say the error.
 Status put_slot(Results *results, const char *name, const char *about, size_t slot, double value);
-Status put_curve(Results *results, const char *name, const char *about, const char *unit_of_time,
-                 const double *time, size_t count, const double *values);
+Status put_curve(Results *results, const char *name, const char *unit_of_time, const double *time,
+                 size_t count, const double *values);
 // Stresses against shear rates.
-Status put_rates(Results *results, const char *name, const char *about, const TheoryPlan *plan,
-                 const double *rate, size_t count, const double *stress);
+Status put_rates(Results *results, const char *name, const TheoryPlan *plan, const double *rate,
+                 size_t count, const double *stress);
 
 // Correlators as they were kept, [time][pair or species][wave number].
 typedef struct Kept {
@@ -37,7 +39,6 @@ typedef struct Kept {
     double *time;
     double *collective, *self, *displacement; // self and displacement NULL: none
 } Kept;
-Status put_kept(Results *results, const TheoryPlan *plan, const Kept *kept, const char *collective,
-                const char *about);
+Status put_kept(Results *results, const TheoryPlan *plan, const Kept *kept, const char *collective);
 // Collective correlators over what they begin at: collective_scattering_normalised.
 Status put_normalised(Results *results, const TheoryPlan *plan, const Kept *kept);

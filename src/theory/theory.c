@@ -132,12 +132,10 @@ static Status find_critical(Theory *theory, Results *results) {
     TRY(results_put_health(results, "transition_mismatch",
                            "relative difference of two ways to the curvature of phi(1 - E)", 0.02,
                            fabs(point->curvature / point->expected_curvature - 1)));
-    TRY(put_pairs(results, plan, "critical_form_factors",
-                  "Form factors F_ab(q) at the glass transition.", point->wave_number, point->count,
+    TRY(put_pairs(results, plan, "critical_form_factors", point->wave_number, point->count,
                   point->form));
-    return put_pairs(results, plan, "critical_amplitude",
-                     "Critical amplitude H_ab(q): F_ab(q,t) = F_ab + H_ab G(t) near the plateau.",
-                     point->wave_number, point->count, point->amplitude);
+    return put_pairs(results, plan, "critical_amplitude", point->wave_number, point->count,
+                     point->amplitude);
 }
 
 // ---- Errors of what was measured ----------------------------------------------------------------
@@ -194,12 +192,8 @@ static Status solve_structure(Theory *theory, Results *results) {
             theory->critical->slope * (packing_fraction / theory->critical->packing_fraction - 1)));
     if (!wants(theory, THEORY_STRUCTURE)) return OK;
     TRY(put_contacts(results, plan, s));
-    TRY(put_pairs(results, plan, "structure_factor",
-                  "Partial structure factors S_ab(q); total: their sum over all ordered pairs.",
-                  s->wave_number, s->count, s->factor));
-    return put_pairs(results, plan, "direct_correlation",
-                     "Direct correlation functions c_ab(q), in d^dimension; their sum.",
-                     s->wave_number, s->count, s->direct);
+    TRY(put_pairs(results, plan, "structure_factor", s->wave_number, s->count, s->factor));
+    return put_pairs(results, plan, "direct_correlation", s->wave_number, s->count, s->direct);
 }
 
 static bool wants_forms(const Theory *theory) {
@@ -210,11 +204,9 @@ static Status put_forms(const Theory *theory, Results *results, const Forms *for
     const Structure *s = theory->structure;
     TRY(put_number(results, "is_glass", "", "1 in a glass, 0 in a fluid.", forms->glass ? 1 : 0));
     if (!forms->glass) return OK;
-    TRY(put_pairs(results, theory->plan, "glass_form_factors",
-                  "What is left of F_ab(q,t) after infinite time.", s->wave_number, s->count,
+    TRY(put_pairs(results, theory->plan, "glass_form_factors", s->wave_number, s->count,
                   forms->collective));
-    TRY(put_species(results, theory->plan, "self_form_factors",
-                    "What is left of a tagged particle's correlator.", s->wave_number, s->count,
+    TRY(put_species(results, theory->plan, "self_form_factors", s->wave_number, s->count,
                     forms->self));
     return put_each(results, theory->plan, "localisation_length", "d",
                     "r_l of a tagged particle: its displacement ends at 2 dim r_l^2.",
@@ -233,8 +225,7 @@ static bool wants_beta(const Theory *theory) {
     return wants(theory, THEORY_BETA);
 }
 
-static Status put_beta(const Theory *theory, Results *results, double sigma, const char *name,
-                       const char *about) {
+static Status put_beta(const Theory *theory, Results *results, double sigma, const char *name) {
     BetaFunction *beta = NULL;
     const BetaSettings settings = {.lambda = theory->critical->exponents.lambda,
                                    .sigma = sigma,
@@ -249,17 +240,14 @@ static Status put_beta(const Theory *theory, Results *results, double sigma, con
         beta->value[count++] = beta->value[i];
         next *= pow(10, 0.05);
     }
-    const Status status =
-        put_curve(results, name, about, "t_sigma", beta->time, count, beta->value);
+    const Status status = put_curve(results, name, "t_sigma", beta->time, count, beta->value);
     beta_free(beta);
     return status;
 }
 
 static Status solve_beta(Theory *theory, Results *results) {
-    TRY(put_beta(theory, results, -1, "beta_scaling_fluid",
-                 "Scaling function g_-(t/t_sigma) below the transition."));
-    return put_beta(theory, results, 1, "beta_scaling_glass",
-                    "Scaling function g_+(t/t_sigma) above the transition.");
+    TRY(put_beta(theory, results, -1, "beta_scaling_fluid"));
+    return put_beta(theory, results, 1, "beta_scaling_glass");
 }
 
 // ---- Correlators -------------------------------------------------------------------------------
@@ -398,9 +386,7 @@ static Status solve_correlators(Theory *theory, Results *results) {
     if (!theory->correlators) TRY(begin_correlators(theory));
     TRY(follow(theory, plan->last_time, (double)plan->times_per_decade, &done));
     if (!done) return OK;
-    Status status = put_kept(results, plan, &theory->kept, "collective_scattering",
-                             "Collective intermediate scattering functions F_ab(q,t); total: "
-                             "their sum over all ordered pairs.");
+    Status status = put_kept(results, plan, &theory->kept, "collective_scattering");
     if (status == OK) status = put_normalised(results, plan, &theory->kept);
     if (status == OK) status = put_diffusion(theory, results);
     end_correlators(theory);
@@ -426,10 +412,7 @@ static Status solve_master(Theory *theory, Results *results) {
     if (!theory->correlators) TRY(begin_master(theory));
     TRY(follow(theory, MASTER_LAST, (double)theory->plan->times_per_decade, &done));
     if (!done) return OK;
-    const Status status =
-        put_kept(results, theory->plan, &theory->kept, "alpha_master",
-                 "Master curve of the final decay at the transition, F_ab - H_ab t^b for small t; "
-                 "the unit of time is that in which it begins so.");
+    const Status status = put_kept(results, theory->plan, &theory->kept, "alpha_master");
     end_correlators(theory);
     theory->share = 1;
     return status;
@@ -465,13 +448,9 @@ static void end_flow(Theory *theory) {
 }
 
 static Status put_flow(const Theory *theory, Results *results) {
-    TRY(put_rates(results, "flow_curve",
-                  "Shear stress of steady flow, isotropically sheared model.", theory->plan,
-                  theory->rate, theory->rates, theory->flow));
-    return put_rates(
-        results, "flow_curve_peak",
-        "Largest shear stress after the start of the flow, isotropically sheared model.",
-        theory->plan, theory->rate, theory->rates, theory->peak);
+    TRY(put_rates(results, "flow_curve", theory->plan, theory->rate, theory->rates, theory->flow));
+    return put_rates(results, "flow_curve_peak", theory->plan, theory->rate, theory->rates,
+                     theory->peak);
 }
 
 // One rate after the other.
