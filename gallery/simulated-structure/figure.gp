@@ -1,8 +1,8 @@
-# The structure that was simulated and what the theory makes of it; correlators of the theory over
-# those of the simulation at equal relative distances from their own transitions.
+# The structure that was simulated and what the theory makes of it; correlators of the theory (lines)
+# over those of the simulation (points) at equal relative distances from their own transitions.
 load "style.gp"
-set terminal svg size 1100,820
-set multiplot layout 2,2
+set terminal svg size 1100,1750
+set multiplot layout 5,2
 set xlabel "q in 1/d_{small}"
 set xrange [0:30]
 set ylabel "S(q) at 0.69, all discs"
@@ -21,14 +21,20 @@ set xlabel "t in d^2/D_0"
 set xrange [5e-4:1e4]
 set yrange [0:1]
 set key top right
-set ylabel "F(q,t)/S(q), q d = 6.06"
-plot "0.76-c_6.06.csv" using 1:2:3 with yerrorbars linetype 1 title "simulation, 0.76", \
-     "theory_0.76-c_6.06.csv" using 1:2 with lines linetype 1 title "theory, ε = -0.0438", \
-     "0.78-c_6.06.csv" using 1:2:3 with yerrorbars linetype 2 title "0.78", \
-     "theory_0.78-c_6.06.csv" using 1:2 with lines linetype 2 title "ε = -0.0186"
-set ylabel "F(q,t)/S(q), q d = 10.06"
-plot "0.76-c_10.06.csv" using 1:2:3 with yerrorbars linetype 1 title "simulation, 0.76", \
-     "theory_0.76-c_10.06.csv" using 1:2 with lines linetype 1 title "theory, ε = -0.0438", \
-     "0.78-c_10.06.csv" using 1:2:3 with yerrorbars linetype 2 title "0.78", \
-     "theory_0.78-c_10.06.csv" using 1:2 with lines linetype 2 title "ε = -0.0186"
+set ytics 0.25
+do for [pair in "c ss sb bb"] {
+    set ylabel pair eq "c" ? "F(q,t)/S(q), all discs" : \
+        pair eq "ss" ? "small and small" : pair eq "sb" ? "small and big" : "big and big"
+    do for [q in "6.06 10.06"] {
+        set label 1 "q d = ".q at graph 0.04, 0.1
+        if (pair eq "c") { set key top right } else { unset key }
+        at = pair."_".q.".csv"
+        plot "0.76-".at using 1:2:3 with yerrorbars linetype 1 title "0.76, ε = -0.044", \
+             "theory_0.76-".at using 1:2 with lines linetype 1 notitle, \
+             "0.78-".at using 1:2:3 with yerrorbars linetype 2 title "0.78, ε = -0.019", \
+             "theory_0.78-".at using 1:2 with lines linetype 2 notitle, \
+             "0.79-".at using 1:2:3 with yerrorbars linetype 3 title "0.79, ε = -0.006", \
+             "theory_0.79-".at using 1:2 with lines linetype 3 notitle
+    }
+}
 unset multiplot

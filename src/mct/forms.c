@@ -14,18 +14,20 @@ static const double CONVERGED = 1e-11; // change of f in an iteration
 
 static Status iterate_self(Model *model, const Radial *radial, double *self, double *memory) {
     const size_t size = model->species * model->grid->stride;
-    for (int iteration = 0; iteration < ITERATIONS_MOST; iteration++) {
-        double change = 0;
+    double change = 1;
+    for (int iteration = 0; iteration < ITERATIONS_MOST && change >= CONVERGED; iteration++) {
+        change = 0;
         model_tagged(model, radial, self, memory);
         for (size_t k = 0; k < size; k++) {
             const double next = memory[k] / (1 + memory[k]);
             change = fmax(change, fabs(next - self[k]));
             self[k] = next;
         }
-        if (change < CONVERGED) return OK;
     }
-    return status_fail(UNHEALTHY, "tagged particle's form factors: no convergence after %d steps",
-                       ITERATIONS_MOST);
+    if (change < CONVERGED) return OK;
+    return status_fail(
+        UNHEALTHY, "tagged particle's form factors: after %d iterations they still change by %.3g",
+        ITERATIONS_MOST, change);
 }
 
 static Status find_self(Model *model, const double *form, double *self, double *memory,

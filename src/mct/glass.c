@@ -157,20 +157,23 @@ static void apply_left(Model *model, Work *work, const double *g) {
 // Power iteration; the map has positive elements, so its largest eigenvalue is alone.
 static Status power(Model *model, Work *work, void (*apply)(Model *, Work *, const double *),
                     double *vector, double *eigenvalue) {
-    for (size_t iteration = 0; iteration < POWER_MOST; iteration++) {
+    double change = 1;
+    for (size_t iteration = 0; iteration < POWER_MOST && change >= CONVERGED; iteration++) {
         apply(model, work, vector);
         const double size = sqrt(model_product(model, work->next, work->next));
-        double change = 0;
+        change = 0;
         for (size_t i = 0; i < model->size; i++) {
             const double next = work->next[i] / size;
             change = fmax(change, fabs(next - vector[i]));
             vector[i] = next;
         }
         *eigenvalue = size;
-        if (change < CONVERGED) return OK;
     }
-    return status_fail(UNHEALTHY, "critical eigenvector: no convergence after %d iterations",
-                       POWER_MOST);
+    if (change < CONVERGED) return OK;
+    return status_fail(UNHEALTHY,
+                       "critical eigenvector: after %d iterations it still changes by %.3g, with "
+                       "the eigenvalue at %.9g",
+                       POWER_MOST, change, *eigenvalue);
 }
 
 // H (S - F)^-1 H

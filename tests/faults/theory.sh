@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # theory.sh PERRIN SAME ROUNDS: a theory under shear that is stopped or killed goes on within its
-# point and ends in the data of one never stopped; a stop says what is kept, and what is not.
+# point and ends in the data of one never stopped; a stop says what is kept, and what is not. A sweep
+# of theories keeps the points that were done.
 PROGRAM=$1 SAME=$2 ROUNDS=$3
 . "$(dirname "$0")/common.sh"
 
@@ -77,4 +78,50 @@ wait $process || code=$?
 grep -q "begins anew" "$work/out" || fail "at rest: not said that it begins anew: $(cat "$work/out")"
 [ ! -e "$work/rest/$checkpoint" ] || fail "at rest: there is a checkpoint"
 [ ! -e "$work/rest/results.h5" ] || fail "at rest: there are results"
-finish "$stopped runs stopped, $within went on within"
+
+# A phase diagram: the points that were done are not done again.
+cat >"$work/run.yaml" <<END
+title: the glass transition over composition and size ratio
+theory:
+  dimension: 2
+  wave_numbers: {count: 204, last: 40}
+  calculate: [critical_point, exponents]
+  species: {small: {diameter: 0.7, fraction: 0.5}, big: {diameter: 1.0}}
+sweep:
+  theory.species.small.diameter: [0.6, 0.7]
+  theory.species.small.fraction: [0.2, 0.5, 0.8]
+END
+rm -rf "$work/reference"
+reference
+done_of() { # points of the sweep that have results, with the files they are in
+    (cd "$work/run" && stat -c '%n %i %y' ./*/results.h5 2>/dev/null)
+}
+partly=0 round=1
+while [ $round -le "$ROUNDS" ]; do
+    rm -rf "$work/run"
+    for signal in KILL TERM KILL; do
+        launch "$work/run" >"$work/out" 2>&1 &
+        process=$!
+        pause "$(part 0.1)" "$(part 0.5)"
+        kill -$signal $process 2>/dev/null
+        code=0
+        wait $process 2>/dev/null || code=$?
+        case $signal-$code in
+            *-0 | KILL-137 | TERM-75) ;;
+            *) fail "sweep, $signal: exit code $code: $(cat "$work/out")" ;;
+        esac
+        done_of >"$work/before"
+        [ -e "$work/run/results.h5" ] && break # all were done
+        [ -s "$work/before" ] && partly=$((partly + 1))
+    done
+    start "$work/run" >"$work/out" 2>&1 || fail "sweep: the resume fails: $(cat "$work/out")"
+    done_of >"$work/after"
+    [ "$(grep -c -x -F -f "$work/before" "$work/after")" -eq "$(grep -c . "$work/before")" ] ||
+        fail "sweep: a point that was done was done again"
+    for file in "$work"/reference/results.h5 "$work"/reference/*/results.h5; do
+        "$SAME" "$file" "$work/run${file#"$work/reference"}" || fail "sweep: other data in $file"
+    done
+    round=$((round + 1))
+done
+[ $partly -gt 0 ] || fail "no sweep was stopped between its points"
+finish "$stopped runs stopped, $within went on within; $partly sweeps stopped between points"

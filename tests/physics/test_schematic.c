@@ -123,18 +123,19 @@ static double flow_stress(const F12 *model, double rate, size_t block) {
     return stress;
 }
 
-// Of the same program, at gamma_c = 0.1.
+// Of the same program, at gamma_c = 0.1: rates from 1 down, two per decade.
 START_TEST(the_flow_curve_of_a_glass_is_known) {
-    static const struct {
-        double rate, stress;
-    } known[] = {{1, 51.8814632},      {1e-1, 8.30533707},   {1e-2, 2.459422176},
-                 {1e-3, 0.966392169},  {1e-4, 0.4806623476}, {1e-5, 0.2985273559},
-                 {1e-6, 0.2232633998}, {1e-7, 0.1936406853}, {1e-8, 0.1855413133},
-                 {1e-9, 0.1843292699}, {1e-10, 0.1841993258}};
+    static const double known[] = {
+        51.8814632,   18.83336916,  8.30533707,   4.31089195,   2.459422176,  1.497036874,
+        0.966392169,  0.6618299588, 0.4806623476, 0.3691795298, 0.2985273559, 0.2528558212,
+        0.2232633998, 0.2045973636, 0.1936406853, 0.1879915434, 0.1855413133, 0.1846344044,
+        0.1843292699, 0.1842307029, 0.1841993258,
+    };
     F12 model = f12_at(1e-3);
     model.critical_strain = 0.1;
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        ck_assert_double_eq_tol(flow_stress(&model, known[i].rate, 512) / known[i].stress, 1, 2e-6);
+        ck_assert_double_eq_tol(flow_stress(&model, pow(10, -0.5 * (double)i), 512) / known[i], 1,
+                                2e-6);
 }
 END_TEST
 
