@@ -9,6 +9,16 @@
 #include <math.h>
 #include <string.h>
 
+// What a series is stands in series.def, and nowhere else.
+static inline void expect_told_sentences(const Results *results) {
+    for (size_t i = 0; i < results->series_count; i++) {
+        const ResultSeries *series = &results->series[i];
+        const ResultMeaning *meaning = result_series_meaning(series->observable);
+        ck_assert_msg(meaning != NULL, "%s is not told", series->observable);
+        ck_assert_str_eq(series->about, meaning->about);
+    }
+}
+
 // A real or integer of a settings struct, by the name of its option.
 static inline void set_number(Settings *settings, const OptionTable *options, const char *name,
                               double value) {

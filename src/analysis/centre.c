@@ -10,7 +10,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 double centre_diffusion(const System *system) {
     size_t counts[SPECIES_MOST];
@@ -37,8 +36,7 @@ static void divide(const Results *results, const ResultSeries *scattering, doubl
 Status derive_centred(Results *results, const ResultSeries *scattering, const char *name,
                       double diffusion) {
     double *values = NULL;
-    ResultSeries shape = *scattering; // results may move it when they grow
-    snprintf(shape.observable, sizeof shape.observable, "%s", name);
+    ResultSeries shape = derive_shape(scattering, name);
     snprintf(shape.about, sizeof shape.about,
              "The function about the centre of mass, whose own diffusion is divided out: over "
              "exp(-q^2 D t), D = %.4g D0.",

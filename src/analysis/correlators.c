@@ -9,7 +9,6 @@
 #include "base/memory.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 // Of the means of two elements; `constant` is the function's own.
@@ -49,7 +48,7 @@ static void jackknife(const Results *results, const Element *first, const Elemen
 
 // Of each element of two series of one shape.
 typedef struct Function {
-    const char *name, *about; // NULL: what the name means
+    const char *name;
     const ResultSeries *first, *second;
     size_t times; // not 0: the second stands at the first of so many times, which are the last axis
     double (*constant_of)(const ResultSeries *series, size_t element, const System *system);
@@ -68,12 +67,10 @@ static void fill(const Results *results, const Function *function, const System 
 }
 
 static Status put(Results *results, const Function *function, const System *system) {
-    ResultSeries shape = *function->first; // adding a series moves those that are there
+    ResultSeries shape = derive_shape(function->first, function->name);
     double *values = NULL;
     TRY(NEW_ARRAY(values, results->replicas * shape.size));
     fill(results, function, system, values);
-    snprintf(shape.observable, sizeof shape.observable, "%s", function->name);
-    if (function->about) snprintf(shape.about, sizeof shape.about, "%s", function->about);
     shape.unit[0] = '\0';
     Status status = OK;
     for (size_t r = 0; r < results->replicas && status == OK; r++) {
@@ -164,13 +161,11 @@ Status derive_susceptibility(Results *results, const ResultSeries *square, const
     const ResultSeries *overlap =
         results_find_series(results, square->stage, centred ? "overlap_centred" : "overlap");
     if (!overlap || overlap->size != square->size) return OK;
-    const Function function = {
-        .name = centred ? "four_point_susceptibility_centred" : "four_point_susceptibility",
-        .about = "chi_4 = N (<Q^2> - <Q>^2) of the overlap Q, over time origins and replicas, at "
-                 "fixed numbers of particles.",
-        .first = square,
-        .second = overlap,
-        .constant_of = particles_of,
-        .of = variance};
+    const Function function = {.name = centred ? "four_point_susceptibility_centred"
+                                               : "four_point_susceptibility",
+                               .first = square,
+                               .second = overlap,
+                               .constant_of = particles_of,
+                               .of = variance};
     return put(results, &function, system);
 }

@@ -17,6 +17,10 @@ static inline double pseudo_value(size_t replicas, double all, double without) {
     return (double)replicas * all - (double)(replicas - 1) * without;
 }
 
+// The shape of a series that is made of another: its axes and its unit. A name that begins with '_'
+// stands behind that of the other. The sentence is that of series.def until it is given.
+ResultSeries derive_shape(const ResultSeries *of, const char *name);
+
 // Rows of a series are counted over its first `axes` axes. The row of `other` at the same species,
 // wave number and so on as a row of `series`; NO_ROW if there is none.
 #define NO_ROW SIZE_MAX

@@ -6,8 +6,6 @@
 #include "base/memory.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 static const int64_t NOBODY = -1;
 
@@ -46,13 +44,10 @@ static void fill(const Results *results, const ResultSeries *series, double *val
 }
 
 Status derive_exponent(Results *results, const ResultSeries *series) {
-    ResultSeries shape = *series; // adding a series moves those that are there
+    ResultSeries shape = derive_shape(series, "_exponent");
     double *values = NULL;
     TRY(NEW_ARRAY(values, results->replicas * shape.size));
     fill(results, series, values);
-    snprintf(shape.observable, sizeof shape.observable, "%.40s_exponent", series->observable);
-    snprintf(shape.about, sizeof shape.about,
-             "Effective exponent d ln/d ln t of the displacements; jackknife over replicas.");
     shape.unit[0] = '\0';
     Status status = OK;
     for (size_t r = 0; r < results->replicas && status == OK; r++) {

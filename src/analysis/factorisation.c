@@ -240,26 +240,11 @@ static void derive_sheet(Sheet *sheet, double *all, size_t count, double *values
 // Of one part, the axes: what it has of wave number and time behind those of the sheets.
 static void shape_part(ResultSeries *shape, const ResultSeries *of, Part part) {
     static const char *const borders[BORDERS] = {"first", "plateau", "last"};
-    static const struct {
-        const char *name, *about;
-    } said[PARTS] = {
-        [X] = {"factorisation_X", "(F(t) - F(t'))/(F(t') - F(t'')), t' and t'' half a decade "
-                                  "before and after the plateau: one curve where F factorises"},
-        [Y] = {"factorisation_Y", "F less its plateau, over F(t') - F(t'') half a decade before "
-                                  "and after it: one curve where F factorises"},
-        [SPREAD] = {"factorisation_spread", "How much factorisation_X differs from wave number to "
-                                            "wave number: root of the mean square about the mean"},
-        [FALL] = {"fall", "By how much the function falls in a decade around a time, mean over "
-                          "wave numbers: the plateau is its minimum"},
-        [HEIGHT] = {"plateau", "Height of the function where it falls least in a decade"},
-        [WINDOW] = {"factorisation_window", "Times between which factorisation_X of all wave "
-                                            "numbers are alike, and that of the plateau"},
-    };
-    *shape = *of;
+    static const char *const names[PARTS] = {
+        [X] = "_factorisation_X", [Y] = "_factorisation_Y", [SPREAD] = "_factorisation_spread",
+        [FALL] = "_fall",         [HEIGHT] = "_plateau",    [WINDOW] = "_factorisation_window"};
+    *shape = derive_shape(of, names[part]);
     const ResultAxis time = of->axis[of->axes - 1];
-    snprintf(shape->observable, sizeof shape->observable, "%.32s_%s", of->observable,
-             said[part].name);
-    snprintf(shape->about, sizeof shape->about, "%s; jackknife over replicas.", said[part].about);
     snprintf(shape->unit, sizeof shape->unit, "%s", part == WINDOW ? time.unit : "");
     if (part == X || part == Y) return;
     shape->axes--;

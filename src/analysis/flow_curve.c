@@ -81,20 +81,10 @@ Status derive_flow_curve(Results *results, Sweep *sweep) {
     char unit[RESULT_NAME];
     strcpy(unit, sweep->series.unit);
     const Part parts[] = {
-        {.name = "yield_stress",
-         .about = "sigma_y of sigma = sigma_y + A rate^n, n free",
-         .first = YIELD,
-         .unit = unit},
-        {.name = "flow_curve_amplitude",
-         .about =
-             "A of sigma = sigma_y + A rate^n, in the unit of the stress at a rate of 1 D0/d^2",
-         .first = AMPLITUDE,
-         .unit = unit},
-        {.name = "flow_curve_exponent",
-         .about = "n of sigma = sigma_y + A rate^n",
-         .first = EXPONENT},
+        {.name = "yield_stress", .first = YIELD, .unit = unit},
+        {.name = "flow_curve_amplitude", .first = AMPLITUDE, .unit = unit},
+        {.name = "flow_curve_exponent", .first = EXPONENT},
         {.name = "yield_stress_at",
-         .about = "sigma_y of sigma = sigma_y + A rate^n, n given",
          .first = GIVEN,
          .axes = 1,
          .axis = {{.name = "exponent", .unit = "", .count = EXPONENTS, .values = exponents}},

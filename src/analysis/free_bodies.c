@@ -111,13 +111,10 @@ static Status put_tensor(Results *results, const ResultSeries *shape, const Syst
 }
 
 Status derive_free_bodies(Results *results, const ResultSeries *series, const System *system) {
-    ResultSeries shape = *series; // adding a series moves those that are there
-    if (strcmp(shape.axis[2].unit, "d^2/D0") != 0) return OK; // no clock, no diffusion
-    const bool turning = strcmp(shape.observable, "orientation_correlation") == 0;
-    strcpy(shape.observable,
-           turning ? "free_orientation_correlation" : "free_directional_displacement");
-    strcpy(shape.about,
-           "The same of bodies alone, from the free diffusion tensor of each species.");
+    if (strcmp(series->axis[2].unit, "d^2/D0") != 0) return OK; // no clock, no diffusion
+    const bool turning = strcmp(series->observable, "orientation_correlation") == 0;
+    const ResultSeries shape = derive_shape(series, turning ? "free_orientation_correlation"
+                                                            : "free_directional_displacement");
     double *values = NULL;
     TRY(NEW_ARRAY(values, shape.size));
     fill(&shape, system, turning ? correlation : displacement, values);

@@ -51,11 +51,8 @@ static void fill(const ResultSeries *series, const double *diffusion, double *va
 
 Status derive_free_displacement(Results *results, const ResultSeries *displacement,
                                 const System *system) {
-    ResultSeries shape = *displacement; // adding a series moves those that are there
-    if (strcmp(shape.axis[2].unit, "d^2/D0") != 0) return OK; // no thermostat, no diffusion
-    strcpy(shape.observable, "free_displacement");
-    strcpy(shape.about, "Mean squared displacement without collisions, beyond a thermostat "
-                        "interval: 2 dim D0 t, with the D0 of each species.");
+    if (strcmp(displacement->axis[2].unit, "d^2/D0") != 0) return OK; // no thermostat, no diffusion
+    const ResultSeries shape = derive_shape(displacement, "free_displacement");
     double *values = NULL;
     TRY(NEW_ARRAY(values, shape.size));
     double diffusion[SPECIES_MOST + 1] = {0};

@@ -164,30 +164,12 @@ Status derive_power_law(Results *results, Sweep *sweep) {
     const ResultAxis from = sweep->series.axis[sweep->axis];
     const size_t given = SCAN + from.count;
     const Part parts[] = {
-        {.name = "critical_packing_fraction",
-         .about = "phi_c of tau ~ (phi_c - phi)^-gamma, gamma free",
-         .first = SCAN},
-        {.name = "critical_exponent",
-         .about = "gamma of tau ~ (phi_c - phi)^-gamma",
-         .first = EXPONENT},
-        {.name = "critical_misfit",
-         .about = "Root of the mean square of ln tau about its power law",
-         .first = MISFIT},
-        {.name = "critical_packing_fraction_at",
-         .about = "phi_c of tau ~ (phi_c - phi)^-gamma, gamma given",
-         .first = given,
-         .axes = 1,
-         .axis = {exponent}},
-        {.name = "critical_scan",
-         .about = "phi_c of tau ~ (phi_c - phi)^-gamma from each packing fraction on, gamma free",
-         .first = SCAN,
-         .axes = 1,
-         .axis = {from}},
-        {.name = "critical_scan_at",
-         .about = "phi_c of tau ~ (phi_c - phi)^-gamma from each packing fraction on, gamma given",
-         .first = given,
-         .axes = 2,
-         .axis = {from, exponent}},
+        {.name = "critical_packing_fraction", .first = SCAN},
+        {.name = "critical_exponent", .first = EXPONENT},
+        {.name = "critical_misfit", .first = MISFIT},
+        {.name = "critical_packing_fraction_at", .first = given, .axes = 1, .axis = {exponent}},
+        {.name = "critical_scan", .first = SCAN, .axes = 1, .axis = {from}},
+        {.name = "critical_scan_at", .first = given, .axes = 2, .axis = {from, exponent}},
     };
     sweep->beside = beside(results, sweep, RELAXATION_TIME, PLATEAU);
     sweep->numbers = given + from.count * EXPONENTS;
@@ -196,22 +178,15 @@ Status derive_power_law(Results *results, Sweep *sweep) {
 }
 
 Status derive_master_curve(Results *results, Sweep *sweep) {
-    static const Part part = {
-        .name = "scaled_spread",
-        .about = "How far the functions against t/tau differ from packing fraction to packing "
-                 "fraction: root of the mean square about their mean"};
+    static const Part part = {.name = "scaled_spread"};
     sweep->numbers = 1;
     return sweep_put(results, sweep, spread, SCALED, &part, 1);
 }
 
 Status derive_square_root_law(Results *results, Sweep *sweep) {
     static const Part parts[] = {
-        {.name = "plateau_critical",
-         .about = "f_c of the plateaus f_c + A sqrt(phi/phi_c - 1) of states that did not relax",
-         .first = CRITICAL_PLATEAU},
-        {.name = "plateau_amplitude",
-         .about = "A of the plateaus f_c + A sqrt(phi/phi_c - 1) of states that did not relax",
-         .first = PLATEAU_AMPLITUDE},
+        {.name = "plateau_critical", .first = CRITICAL_PLATEAU},
+        {.name = "plateau_amplitude", .first = PLATEAU_AMPLITUDE},
     };
     sweep->beside = beside(results, sweep, PLATEAU, RELAXATION_TIME);
     if (!sweep->beside) return OK;

@@ -209,23 +209,19 @@ static void derive_row(Row *row, double *values, size_t index, size_t rows) {
 static Status put_quantity(Results *results, const ResultSeries *of, size_t quantity,
                            const double *values, size_t rows) {
     static const struct {
-        const char *name, *about;
+        const char *name;
         bool time;
-    } said[QUANTITIES] = {
-        [AMPLITUDE] = {"amplitude", "A of Kohlrausch's law A exp(-(t/tau)^beta)", false},
-        [TIME] = {"time", "tau of Kohlrausch's law A exp(-(t/tau)^beta)", true},
-        [EXPONENT] = {"exponent", "beta of Kohlrausch's law A exp(-(t/tau)^beta)", false},
-        [RELAXATION_TIME] = {"relaxation_time", "Where the function has fallen to 1/e", true},
-        [WINDOW] = {"window", "First lag that Kohlrausch's law is fitted to", true},
+    } numbers[QUANTITIES] = {
+        [AMPLITUDE] = {"_kohlrausch_amplitude", false},
+        [TIME] = {"_kohlrausch_time", true},
+        [EXPONENT] = {"_kohlrausch_exponent", false},
+        [RELAXATION_TIME] = {"_relaxation_time", true},
+        [WINDOW] = {"_kohlrausch_window", true},
     };
-    const bool law = quantity != RELAXATION_TIME;
-    ResultSeries shape = *of;
+    ResultSeries shape = derive_shape(of, numbers[quantity].name);
     shape.axes--; // all but time
-    snprintf(shape.observable, sizeof shape.observable, "%.40s%s_%s", of->observable,
-             law ? "_kohlrausch" : "", said[quantity].name);
-    snprintf(shape.about, sizeof shape.about, "%s; jackknife over replicas.", said[quantity].about);
     snprintf(shape.unit, sizeof shape.unit, "%.60s",
-             said[quantity].time ? of->axis[of->axes - 1].unit : "");
+             numbers[quantity].time ? of->axis[of->axes - 1].unit : "");
     for (size_t r = 0; r < results->replicas; r++) {
         TRY(results_put_series(results, &shape, r, values + (r * QUANTITIES + quantity) * rows));
     }
@@ -234,10 +230,7 @@ static Status put_quantity(Results *results, const ResultSeries *of, size_t quan
 
 // Of the mean over replicas: one value, that has no error.
 static Status put_scan(Results *results, const ResultSeries *of, const double *exponents) {
-    ResultSeries shape = *of;
-    snprintf(shape.observable, sizeof shape.observable, "%.40s_kohlrausch_scan", of->observable);
-    snprintf(shape.about, sizeof shape.about,
-             "beta of Kohlrausch's law fitted to the mean over replicas from each time on.");
+    ResultSeries shape = derive_shape(of, "_kohlrausch_scan");
     shape.unit[0] = '\0';
     return results_put_series(results, &shape, 0, exponents);
 }

@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which rows of two series of the same observable are of the same species, direction, wave number:
-// stages may look at other ones, and in another order.
+// What is made of a series: its shape, and which rows of two series of the same observable are of
+// the same species, direction, wave number: stages may look at other ones, and in another order.
 #include "analysis/derive.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+
+ResultSeries derive_shape(const ResultSeries *of, const char *name) {
+    ResultSeries shape = *of; // adding a series moves those that are there
+    const int source = name[0] == '_' ? RESULT_NAME - 1 - (int)strlen(name) : 0;
+    snprintf(shape.observable, sizeof shape.observable, "%.*s%s", source, of->observable, name);
+    shape.about[0] = '\0';
+    return shape;
+}
 
 static const double SAME_NUMBER = 1e-9; // relative, as both were read from one run file
 

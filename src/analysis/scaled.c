@@ -8,7 +8,6 @@
 #include "base/memory.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 enum { POINTS = 51, PER_DECADE = 10 };
@@ -45,13 +44,9 @@ static void derive_row(const Results *results, Scaling *scaling, size_t row) {
 }
 
 static Status put(Results *results, const Scaling *scaling) {
-    ResultSeries shape = *scaling->series;
+    ResultSeries shape = derive_shape(scaling->series, "_scaled");
     shape.axis[shape.axes - 1] =
         (ResultAxis){.name = "scaled_time", .unit = "", .count = POINTS, .values = scaling->grid};
-    snprintf(shape.observable, sizeof shape.observable, "%.48s_scaled",
-             scaling->series->observable);
-    snprintf(shape.about, sizeof shape.about,
-             "Against t/tau, tau where the function has fallen to 1/e; jackknife over replicas.");
     for (size_t r = 0; r < results->replicas; r++) {
         TRY(results_put_series(results, &shape, r, scaling->values + r * scaling->rows * POINTS));
     }

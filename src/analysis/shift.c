@@ -59,11 +59,10 @@ static void derive_rows(Shift *shift) {
 }
 
 static Status put(Results *results, const Shift *shift) {
-    ResultSeries shape = *shift->to;
+    ResultSeries shape = derive_shape(shift->to, "_time_shift");
     const ResultAxis *from = times_of(shift->from), *to = times_of(shift->to);
     shape.axis[shape.axes - 1] =
         (ResultAxis){.name = "level", .unit = "", .count = LEVELS, .values = levels};
-    snprintf(shape.observable, sizeof shape.observable, "%.40s_time_shift", shift->to->observable);
     snprintf(shape.about, sizeof shape.about,
              "Time at which the function falls to a level, over that in stage %.60s; jackknife "
              "over replicas.",

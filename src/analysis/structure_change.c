@@ -41,8 +41,7 @@ Status derive_structure_change(Results *results, const ResultSeries *series) {
     double *changes = NULL;
     TRY(NEW_ARRAY(changes, count));
     for (size_t i = 0; i < count; i++) changes[i] = series->values[i] - rest->values[i];
-    ResultSeries shape = *series;
-    snprintf(shape.observable, sizeof shape.observable, "%.40s_change", series->observable);
+    ResultSeries shape = derive_shape(series, "_change");
     snprintf(shape.about, sizeof shape.about, "Change of the structure factor since stage '%s'.",
              rest->stage);
     const Status status = put_changes(results, &shape, changes);

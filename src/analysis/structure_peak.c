@@ -33,8 +33,7 @@ static Status put_peak(Results *results, const ResultSeries *stretches, size_t p
                        const double *heights) {
     const size_t times = stretches->axis[1].count;
     const double wave_number = stretches->axis[0].values[peak];
-    ResultSeries shape = *stretches; // results may move it when they grow
-    snprintf(shape.observable, sizeof shape.observable, "structure_peak");
+    ResultSeries shape = derive_shape(stretches, "structure_peak");
     snprintf(shape.about, sizeof shape.about,
              "Height of the peak of the total S(q), at q = %.4g/d, in stretches of the stage: it "
              "rises where particles order.",

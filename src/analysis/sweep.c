@@ -76,9 +76,9 @@ void sweep_name(char name[RESULT_NAME], const char *observable, const char *endi
 
 static void shape_part(ResultSeries *shape, const Sweep *sweep, const char *ending,
                        const Part *part) {
-    *shape = sweep->series;
-    sweep_name(shape->observable, sweep->series.observable, ending, part->name);
-    snprintf(shape->about, sizeof shape->about, "%s; jackknife over replicas.", part->about);
+    char name[RESULT_NAME];
+    sweep_name(name, sweep->series.observable, ending, part->name);
+    *shape = derive_shape(&sweep->series, name);
     snprintf(shape->unit, sizeof shape->unit, "%s", part->unit ? part->unit : "");
     shape->axes = 0;
     for (size_t a = 0; a < sweep->series.axes; a++) {
@@ -103,8 +103,8 @@ static Status put_part(Results *results, const Sweep *sweep, const char *ending,
         if (shape.axes > 0)
             status = results_put_series(results, &shape, r, some);
         else
-            status = results_put_scalar(results, shape.stage, shape.observable, shape.unit,
-                                        shape.about, r, *some);
+            status = results_put_scalar(results, shape.stage, shape.observable, shape.unit, NULL, r,
+                                        *some);
     }
     memory_free(some);
     return status;

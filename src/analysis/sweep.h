@@ -34,7 +34,7 @@ typedef struct Sweep {
 
 // Numbers of every row from `first` on, along further axes.
 typedef struct Part {
-    const char *name, *about;
+    const char *name;
     size_t first, axes;
     ResultAxis axis[2];
     const char *unit; // NULL: a pure number

@@ -13,7 +13,6 @@
 #include "base/memory.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 // One correlator of the three, from the means over replicas or over all but one: [lags].
@@ -178,12 +177,10 @@ static void derive_row(Relation *relation, size_t row, size_t wait, double *all[
     }
 }
 
-static Status put_series(Results *results, const ResultSeries *like, const char *name,
-                         const char *about, size_t axes, const double *values, size_t size) {
-    ResultSeries shape = *like;
+static Status put_series(Results *results, const ResultSeries *like, const char *name, size_t axes,
+                         const double *values, size_t size) {
+    ResultSeries shape = derive_shape(like, name);
     shape.axes = axes;
-    snprintf(shape.observable, sizeof shape.observable, "%.40s_%s", like->observable, name);
-    snprintf(shape.about, sizeof shape.about, "%s", about);
     if (axes < like->axes) shape.unit[0] = '\0';
     for (size_t r = 0; r < results->replicas; r++) {
         TRY(results_put_series(results, &shape, r, values + r * size));
@@ -194,17 +191,11 @@ static Status put_series(Results *results, const ResultSeries *like, const char 
 static Status put(Results *results, const Relation *relation) {
     const ResultSeries like = *relation->sheared; // adding a series moves those that are there
     const size_t size = relation->rows * relation->waits;
-    TRY(put_series(results, &like, "relation",
-                   "The transient function as the ITT relation has it from each waiting strain, "
-                   "with s the waiting time: no parameter.",
-                   like.axes, relation->predicted[AS_WAITED], size * relation->curves.lags));
-    TRY(put_series(results, &like, "relation_fitted",
-                   "The transient function as the ITT relation has it from each waiting strain, "
-                   "with the s that serves best.",
-                   like.axes, relation->predicted[BEST], size * relation->curves.lags));
-    return put_series(results, &like, "relation_strain",
-                      "The s of the ITT relation that serves best, as a strain.", like.axes - 1,
-                      relation->strain, size);
+    TRY(put_series(results, &like, "_relation", like.axes, relation->predicted[AS_WAITED],
+                   size * relation->curves.lags));
+    TRY(put_series(results, &like, "_relation_fitted", like.axes, relation->predicted[BEST],
+                   size * relation->curves.lags));
+    return put_series(results, &like, "_relation_strain", like.axes - 1, relation->strain, size);
 }
 
 static Status allocate(Relation *relation, double *room[4]) {

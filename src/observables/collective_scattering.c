@@ -13,7 +13,6 @@
 #include "observables/wave_vectors.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 typedef struct CollectiveSettings {
@@ -296,10 +295,6 @@ static Status put(const Collective *self, const State *state, const Labels *pair
     static const char *const names[][2] = {
         {"collective_scattering", "collective_scattering_ends"},
         {"collective_scattering_about_centre", "collective_scattering_about_centre_ends"}};
-    static const char *const abouts[] = {
-        "Collective intermediate scattering functions F_ab(q,t) = <rho_a*(0) rho_b(t)>/N; total: "
-        "their sum over all ordered pairs; at t = 0 the structure factor.",
-        "Structure factors over both ends of every stretch of time from which F_ab(q,t) was seen."};
     ResultSeries shape = {
         .unit = "",
         .axes = 2,
@@ -310,7 +305,6 @@ static Status put(const Collective *self, const State *state, const Labels *pair
                   .values = self->vectors.wave_number}}};
     shape.axes += time_axes(self, times, shape.axis + shape.axes);
     for (size_t k = 0; k < 2; k++) {
-        snprintf(shape.about, sizeof shape.about, "%s", abouts[k]);
         fill(self, k == 1, state->count, values);
         TRY(observer_put_series(&self->observer, names[self->frame][k], &shape, results, replica,
                                 values));

@@ -185,8 +185,6 @@ static Status put(const Msd *msd, const Labels *species, double *values, double 
     fill(msd, species->count, values);
     ResultSeries shape = {
         .unit = "d^2",
-        .about = "Mean squared displacement <(r(t) - r(0))^2> over particles and time origins; "
-                 "finite size: seen from the box the centre of mass is left to diffuse.",
         .axes = 2,
         .axis = {{.name = "species", .unit = "", .count = species->count, .labels = species->names},
                  {.name = "direction",

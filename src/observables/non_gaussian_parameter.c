@@ -76,12 +76,9 @@ static Status put(const Motion *self, const Labels *species, double *values, dou
                   Results *results, size_t replica) {
     static const char *const names[] = {"squared_displacement", "quartic_displacement"};
     static const char *const units[] = {"d^2", "d^4"};
-    static const char *const abouts[] = {"<|r(t) - r(0)|^2> over particles and time origins.",
-                                         "<|r(t) - r(0)|^4> over particles and time origins."};
     for (size_t moment = 0; moment < MOMENTS; moment++) {
-        ResultSeries shape = {.about = "", .axes = 1, .axis = {{.name = "species", .unit = ""}}};
+        ResultSeries shape = {.axes = 1, .axis = {{.name = "species", .unit = ""}}};
         snprintf(shape.unit, sizeof shape.unit, "%s", units[moment]);
-        snprintf(shape.about, sizeof shape.about, "%s", abouts[moment]);
         shape.axis[0].count = species->count;
         shape.axis[0].labels = species->names;
         shape.axes += lags_axes(&self->moves.history.lags, &self->observer.clock, times,

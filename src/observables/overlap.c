@@ -9,8 +9,6 @@
 #include "observables/motion.h"
 #include "observables/put.h"
 
-#include <stdio.h>
-
 typedef struct OverlapSettings {
     double distance;
     LagSettings lags;
@@ -108,9 +106,6 @@ static Status put(const Overlap *self, const Labels *species, double *values, do
                   Results *results, size_t replica) {
     static const char *const names[][POWERS] = {{"overlap", "overlap_square"},
                                                 {"overlap_centred", "overlap_square_centred"}};
-    static const char *const abouts[] = {
-        "Fraction of the particles that are near where they were: Q(t), mean over time origins.",
-        "Mean of Q(t)^2 over time origins."};
     const bool centred = self->motion.moves.frame == FRAME_CENTRE_OF_MASS;
     for (size_t power = 0; power < POWERS; power++) {
         ResultSeries shape = {.unit = "",
@@ -119,7 +114,6 @@ static Status put(const Overlap *self, const Labels *species, double *values, do
                                         .unit = "",
                                         .count = species->count,
                                         .labels = species->names}}};
-        snprintf(shape.about, sizeof shape.about, "%s", abouts[power]);
         shape.axes += lags_axes(&self->motion.moves.history.lags, &self->motion.observer.clock,
                                 times, shape.axis + shape.axes);
         fill(self, power, values);

@@ -12,7 +12,6 @@
 #include "propagator/tracer.h"
 
 #include <math.h>
-#include <string.h>
 
 typedef struct TracerSettings {
     int64_t looks;
@@ -271,9 +270,6 @@ static Status put_settling(const Tracer *tracer, Results *results, size_t replic
     TRY(observer_put_series(&tracer->observer, "tracer_step", &shape, results, replica,
                             settling->step));
     shape.unit[0] = '\0';
-    strcpy(shape.about,
-           "What a cycle of the tracer was worth in time over what one of the bath was: "
-           "its step is adjusted until this is 1.");
     return observer_put_series(&tracer->observer, "tracer_pace", &shape, results, replica,
                                settling->pace);
 }

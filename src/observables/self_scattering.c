@@ -179,8 +179,6 @@ static Status put(const SelfScattering *self, const Labels *species, double *val
     }
     ResultSeries shape = {
         .unit = "",
-        .about = "Self-intermediate scattering function <cos(q.(r(t) - r(0)))> over particles and "
-                 "time origins, along each direction of q and their mean.",
         .axes = 3,
         .axis = {{.name = "species", .unit = "", .count = species->count, .labels = species->names},
                  {.name = "direction",

@@ -12,7 +12,6 @@
 #include "propagator/tracer.h"
 
 #include <math.h>
-#include <string.h>
 
 typedef struct RingSettings {
     int64_t looks;
@@ -238,8 +237,6 @@ static Status put_maps(const Rings *rings, const State *state, double *values, R
                             values));
     if (!state->oriented) return OK;
     for (size_t c = 0; c < cells; c++) values[c] = rings->order[c] / rings->count[c];
-    strcpy(shape.about, "E2 = <(3 (u.F)^2 - 1)/2> of the bath's body axes against the force, in "
-                        "rings about it; NaN where none came.");
     return observer_put_series(&rings->observer, "tracer_orientations", &shape, results, replica,
                                values);
 }

@@ -125,8 +125,7 @@ static Status put(const Viscosity *self, const State *state, double *values, dou
     for (size_t k = 0; k < lags->count; k++) {
         values[k] = factor * self->sums[k] / (double)self->history.seen[k];
     }
-    ResultSeries shape = {.about = "V <S(t)^2>/(2 kT), S the integral of the shear stress over "
-                                   "the time t: its slope is the viscosity."};
+    ResultSeries shape = {.axes = 0};
     strcpy(shape.unit, state->box.dimension == 2 ? "kT d^2/D0^2" : "kT d/D0^2");
     shape.axes = lags_axes(lags, clock, times, shape.axis);
     return observer_put_series(&self->observer, "stress_wandering", &shape, results, replica,

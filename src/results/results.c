@@ -115,6 +115,7 @@ static Status fill_series(ResultSeries *series, const ResultSeries *shape, size_
     TRY(keep_name(series->observable, shape->observable));
     TRY(KEEP_TEXT(series->unit, shape->unit));
     const ResultMeaning *meaning = result_series_meaning(shape->observable);
+    if (!meaning) meaning = result_meaning(shape->observable); // over the points of a sweep
     TRY(KEEP_TEXT(series->about, shape->about[0] || !meaning ? shape->about : meaning->about));
     ASSERT(shape->axes <= RESULT_AXES);
     series->size = 1;

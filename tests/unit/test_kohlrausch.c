@@ -125,6 +125,14 @@ START_TEST(another_grid_of_lags_tells_the_same) {
 }
 END_TEST
 
+START_TEST(what_is_made_of_a_function_has_its_sentence) {
+    Results *results = decays(glassy, 0.1, 1e-3);
+    ck_assert_uint_ge(results->series_count, 14);
+    expect_told_sentences(results);
+    results_free(results);
+}
+END_TEST
+
 START_TEST(a_free_particle_decays_exponentially) {
     Results *results = decays(exponential, 0, 0);
     ck_assert_double_eq_tol(found(results, "kohlrausch_exponent", 0).value, 1, 1e-6);
@@ -229,6 +237,7 @@ int main(void) {
     tcase_set_timeout(c, 60);
     tcase_add_test(c, kohlrausch_law_is_found_behind_the_plateau);
     tcase_add_test(c, another_grid_of_lags_tells_the_same);
+    tcase_add_test(c, what_is_made_of_a_function_has_its_sentence);
     tcase_add_test(c, a_free_particle_decays_exponentially);
     tcase_add_test(c, errors_are_those_of_the_replicas);
     tcase_add_test(c, what_has_not_relaxed_has_no_time);

@@ -76,6 +76,7 @@ START_TEST(a_power_law_is_found) {
         ck_assert_double_eq_tol(found(results, "critical_scan", 7 * STATES + s).value, CRITICAL,
                                 1e-6);
     ck_assert(isnan(found(results, "critical_scan", 7 * STATES + STATES - 3).value));
+    expect_told_sentences(results);
     results_free(results);
 }
 END_TEST
@@ -165,6 +166,7 @@ START_TEST(plateaus_of_a_glass_rise_as_a_square_root) {
         ck_assert_double_eq_tol(found(results, "plateau_critical", q).value, critical[q], 1e-5);
         ck_assert_double_eq_tol(found(results, "plateau_amplitude", q).value, amplitude[q], 1e-4);
     }
+    expect_told_sentences(results);
     results_free(results);
 }
 END_TEST
@@ -239,6 +241,9 @@ START_TEST(a_yield_stress_is_found_and_its_absence) {
     ck_assert_double_eq_tol(results_series_estimate(results, given, 9).value, 0, 1e-6);
     ck_assert_double_gt(results_series_estimate(results, given, 15).value, 0.31); // 0.6: too steep
     ck_assert_str_eq(given->unit, "kT/d^2");
+    ck_assert_str_eq(given->about, result_series_meaning("yield_stress_at")->about);
+    ck_assert_str_eq(series_of(results, "flow", "yield_stress")->about,
+                     result_meaning("yield_stress")->about);
     results_free(results);
 }
 END_TEST
