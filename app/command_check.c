@@ -65,11 +65,11 @@ static Status print_method(const Plan *plan, const Stage *stage) {
 }
 
 static Status print_observation(const Observation *observation, const System *system,
-                                const char *title) {
-    const ObservableKind *kind = observation->kind;
-    printf("          %-16s %s\n", title, kind->name);
+                                const Clock *clock, const char *title) {
+    printf("          %-16s %s\n", title, observation->kind->name);
     Text lines = {0};
-    Status status = kind->describe ? kind->describe(&observation->settings, system, &lines) : OK;
+    const Status status =
+        observable_describe(observation->kind, &observation->settings, system, clock, &lines);
     if (status == OK) return print_lines(&lines);
     text_free(&lines);
     return status;
@@ -128,7 +128,8 @@ static Status print_stage(const Plan *plan, size_t index) {
     TRY(print_method(plan, stage));
     if (stage->observation_count == 0) printf("          %-16s nothing\n", "  observes");
     for (size_t k = 0; k < stage->observation_count; k++) {
-        TRY(print_observation(&stage->observations[k], &plan->system, k == 0 ? "  observes" : ""));
+        TRY(print_observation(&stage->observations[k], &plan->system, &clock,
+                              k == 0 ? "  observes" : ""));
     }
     return OK;
 }

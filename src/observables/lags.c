@@ -181,6 +181,28 @@ Status lags_check(const char *observable, const LagSettings *settings, const Clo
     return OK;
 }
 
+// Of the last waiting time, which leaves the least room.
+void lags_describe(const LagSettings *settings, const Clock *clock, Text *lines) {
+    const Lags lags = lags_chosen(settings, clock);
+    if (lags.waits == 0) return;
+    const int64_t wait = lags.wait[lags.waits - 1], room = clock->ticks - wait;
+    size_t seen = 0;
+    while (seen < lags.count && lags.ticks[seen] <= room) seen++;
+    if (seen == lags.count) return;
+    // A longest lag of a third of the stage grows with it.
+    const int64_t longest = lags.ticks[lags.count - 1];
+    const int64_t needed = wait + (settings->last > 0 ? longest : (wait + 1) / 2);
+    const double rate = steady_rate(clock);
+    text_add(lines,
+             "%zu of %zu lags have no value where the waiting %s is %.6g: ", lags.count - seen,
+             lags.count, lags.by_strain ? "strain" : "time",
+             (double)wait * clock->tick * (lags.by_strain ? rate : 1));
+    text_add(lines, "they end after the stage; make it %.6g %s long", (double)needed * clock->tick,
+             clock->unit);
+    if (rate > 0) text_add(lines, " (a strain of %.6g)", (double)needed * clock->tick * rate);
+    text_add(lines, ", or times.last %.6g at most\n", (double)room * clock->tick);
+}
+
 void lags_times(const Lags *lags, const Clock *clock, double *times) {
     for (size_t k = 0; k < lags->count; k++) times[k] = (double)lags->ticks[k] * clock->tick;
 }

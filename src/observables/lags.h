@@ -93,6 +93,9 @@ Lags lags_chosen(const LagSettings *settings, const Clock *clock);
 // BAD_DATA with a sentence if they do not fit into the stage.
 Status lags_check(const char *observable, const LagSettings *settings, const Clock *clock);
 
+// A line for `perrin check` where a waiting time leaves some of them no room in the stage.
+void lags_describe(const LagSettings *settings, const Clock *clock, Text *lines);
+
 void lags_times(const Lags *lags, const Clock *clock, double *times); // in the clock's unit
 
 // The first tick after `after` that is an origin or at which a lag ends; INT64_MAX past the end.

@@ -52,7 +52,7 @@ struct ObservableKind {
     double (*relative_error)(const Observer *observer);
     void (*free)(Observer *observer);
     size_t (*memory)(const Settings *settings, const System *system, const Clock *clock); // bytes
-    // What `perrin check` says of it, a line each. May be NULL.
+    // What `perrin check` says of it alone, a line each. May be NULL.
     Status (*describe)(const Settings *settings, const System *system, Text *lines);
 };
 
@@ -63,3 +63,7 @@ struct ObservableKind {
 
 extern const ObservableKind *const observable_kinds[]; // NULL-ended
 const ObservableKind *observable_kind_named(const char *name);
+
+// What `perrin check` says of it in this stage, a line each.
+Status observable_describe(const ObservableKind *kind, const Settings *settings,
+                           const System *system, const Clock *clock, Text *lines);

@@ -73,6 +73,19 @@ expect "check does not of one like the bath" keeps_quiet --set system.species.tr
 expect "check does not of a single trajectory" \
     keeps_quiet --set protocol.pulled.pull.period=0
 
+# Of waiting times, whether all lags end within the stage.
+waits() {
+    last=$1
+    shift
+    sed "s/observe:.*/observe: [{mean_squared_displacement: {waiting_times: [0, 0.1], times: {last: $last}}}]}/" \
+        small.yaml > waits.yaml
+    "$perrin" check waits.yaml "$@" | grep -q 'where the waiting time is 0.1: they end after the stage'
+}
+waits_in_vain() { ! waits "$@"; }
+expect "check warns of lags beyond the stage" waits 0.15
+expect "check does not of those within" waits_in_vain 0.1
+expect "check does not of a longer stage" waits_in_vain 0.15 --set protocol.rest.time=0.25
+
 # Numbers.
 "$perrin" show small > table
 "$perrin" show small --csv > table.csv

@@ -9,6 +9,7 @@
 #include "observables/lags.h"
 #include "observables/versines.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 static const RngKey KEY = {.seed = 20261125, .replica = 5};
@@ -592,6 +593,38 @@ START_TEST(what_cannot_be_correlated_is_refused_with_a_sentence) {
 }
 END_TEST
 
+// Of a waiting time that leaves the longer lags no room, and after the advice.
+START_TEST(lags_that_end_after_the_stage_are_told) {
+    const ObservableKind *kind = &observable_overlap;
+    const System system = system_of(2, 100, 0.4, 2);
+    Settings settings = settings_of(&kind->options);
+    Clock clock = clock_of(1000, 5);
+    const double tick = clock.tick;
+    set_list(&settings, kind, "waiting_times", (OptionReals){3, {0, 500 * tick, 800 * tick}});
+    set_number(&settings, &kind->options, "times.last", 400 * tick);
+    const struct {
+        int64_t ticks;
+        double last;
+        bool told;
+    } cases[] = {{1000, 400 * tick, true}, {1000, 200 * tick, false}, {1200, 400 * tick, false},
+                 {1199, 400 * tick, true}, {1000, 0, true}, // a third of the stage
+                 {1200, 0, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Text lines = {0};
+        char advice[100];
+        clock.ticks = cases[i].ticks;
+        set_number(&settings, &kind->options, "times.last", cases[i].last);
+        snprintf(advice, sizeof advice, "make it %.6g %s long, or times.last %.6g at most\n",
+                 1200 * tick, clock.unit, (double)(clock.ticks - 800) * tick);
+        ck_assert_int_eq(observable_describe(kind, &settings, &system, &clock, &lines), OK);
+        ck_assert_msg((strstr(text_words(&lines), advice) != NULL) == cases[i].told, "%zu: '%s'", i,
+                      text_words(&lines));
+        ck_assert(cases[i].told || text_words(&lines)[0] == '\0');
+        text_free(&lines);
+    }
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("correlators");
     TCase *c = tcase_create("correlators");
@@ -608,6 +641,7 @@ int main(void) {
     tcase_add_test(c, of_two_replicas_each_gives_its_own_value);
     tcase_add_test(c, versines_have_the_same_bits_on_every_path);
     tcase_add_test(c, what_cannot_be_correlated_is_refused_with_a_sentence);
+    tcase_add_test(c, lags_that_end_after_the_stage_are_told);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
