@@ -4,6 +4,7 @@
 // in a trial as in the time parallel^2/(6 D_par), the clock "VA" has it slowed by the acceptance,
 // "VD" by what is left of squared displacements.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/labels.h"
 #include "observables/looks.h"
 #include "observables/put.h"
@@ -29,7 +30,6 @@ static const Option rows[] = {
 
 typedef struct Acceptance {
     Observer observer;
-    int64_t period;               // ticks of a block
     int64_t seen;                 // ticks
     size_t blocks;                // that the stage has
     MoveTally half[SPECIES_MOST]; // in the first half of the stage
@@ -65,25 +65,16 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     Acceptance *acceptance = NULL;
     TRY(NEW(acceptance));
     acceptance->observer = (Observer){.kind = &observable_acceptance, .clock = *clock};
-    acceptance->period = period_for(settings, clock);
+    acceptance->observer.period = period_for(settings, clock);
     acceptance->blocks = blocks_for(settings, clock);
     Status status = NEW_ARRAY(acceptance->trials, acceptance->blocks * SPECIES_MOST);
     if (status == OK) status = NEW_ARRAY(acceptance->accepted, acceptance->blocks * SPECIES_MOST);
-    if (status != OK) {
-        discard(&acceptance->observer);
-        return status;
-    }
-    *out = &acceptance->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return looks_next(&observer->clock, ((const Acceptance *)observer)->period, after);
+    return observer_begin(out, &acceptance->observer, status);
 }
 
 static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
     Acceptance *acceptance = (Acceptance *)observer;
-    const size_t block = (size_t)(tick / acceptance->period - 1);
+    const size_t block = (size_t)(tick / acceptance->observer.period - 1);
     for (size_t s = 0; s < state->system.species_count; s++) {
         const MoveTally *now = &tally->moves[s], *before = &acceptance->all[s];
         acceptance->trials[block * SPECIES_MOST + s] = (double)(now->trials - before->trials);
@@ -231,7 +222,8 @@ static Status put_cycles(const Slot *slot, const double *times, double *values) 
         for (size_t s = 0; s < slot->state->system.species_count; s++) {
             sum += acceptance->trials[b * SPECIES_MOST + s];
         }
-        values[b] = (double)acceptance->period * clock->tick * (double)slot->state->count / sum;
+        values[b] =
+            (double)acceptance->observer.period * clock->tick * (double)slot->state->count / sum;
     }
     ResultSeries shape = {
         .axes = 1,
@@ -244,7 +236,7 @@ static Status put_cycles(const Slot *slot, const double *times, double *values) 
 
 static Status put_blocks(const Slot *slot) {
     const Acceptance *acceptance = slot->acceptance;
-    const double length = (double)acceptance->period * acceptance->observer.clock.tick;
+    const double length = (double)acceptance->observer.period * acceptance->observer.clock.tick;
     double *times = NULL, *values = NULL;
     Status status = NEW_ARRAY(times, acceptance->blocks);
     if (status == OK) status = NEW_ARRAY(values, acceptance->blocks * SPECIES_MOST);
@@ -281,7 +273,7 @@ const ObservableKind observable_acceptance = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(AcceptanceSettings)},
     .check = check,
     .create = create,
-    .next = next,
+    .next = looks_next,
     .see = see,
     .archive = archive,
     .write = write,

@@ -8,6 +8,7 @@
 // factor S_ab(q) in that direction.
 #include "base/memory.h"
 #include "observables/advected_waves.h"
+#include "observables/begin.h"
 #include "observables/history.h"
 #include "observables/labels.h"
 #include "observables/put.h"
@@ -187,13 +188,7 @@ static Status create(Observer **out, const Settings *settings_, const State *sta
     self->wave_numbers = wave_numbers_chosen(&settings->wave_numbers, &state->system);
     self->species_count = state->system.species_count;
     lay_out(self, &state->system);
-    const Status status = allocate(self, &lags);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
+    return observer_begin(out, &self->observer, allocate(self, &lags));
 }
 
 static int64_t next(const Observer *observer, int64_t after) {

@@ -8,6 +8,7 @@
 // contact_stress.
 #include "base/constants.h"
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/labels.h"
 #include "observables/looks.h"
 #include "observables/near_pairs.h"
@@ -46,14 +47,7 @@ static const Option rows[] = {
      .most = 3600,
      .unit = "",
      .about = "Bins of the angle, from 0 to 180 degrees: a separation and its opposite are one."},
-    {.name = "looks",
-     .type = OPTION_INTEGER,
-     .offset = offsetof(AngularSettings, looks),
-     .fallback = 400,
-     .least = 1,
-     .most = 10000000,
-     .unit = "",
-     .about = "Configurations looked at, evenly over the stage: at most this many."},
+    LOOKS_OPTION(AngularSettings, looks, 400),
 };
 
 enum { HARMONICS = 3 };
@@ -61,7 +55,6 @@ static const char *const harmonic_names[HARMONICS] = {"isotropic", "xy", "xx-yy"
 
 typedef struct Angular {
     Observer observer;
-    int64_t period;
     size_t species_count, bins, angles;
     double spacing;
     uint64_t looks;
@@ -118,22 +111,12 @@ static Status create(Observer **out, const Settings *settings_, const State *sta
     Angular *self = NULL;
     TRY(NEW(self));
     self->observer = (Observer){.kind = &observable_angular_pair_distribution, .clock = *clock};
-    self->period = looks_period(clock, settings->looks);
+    self->observer.period = looks_period(clock, settings->looks);
     self->species_count = state->system.species_count;
     self->angles = (size_t)settings->angles;
     self->spacing = settings->spacing;
     self->bins = pair_sums_bins(last_of(settings, &state->box), settings->spacing);
-    const Status status = allocate(self, state);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return looks_next(&observer->clock, ((const Angular *)observer)->period, after);
+    return observer_begin(out, &self->observer, allocate(self, state));
 }
 
 // The angle to x or, of the opposite separation, that and half a turn: the bin of angles.
@@ -297,7 +280,7 @@ const ObservableKind observable_angular_pair_distribution = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(AngularSettings)},
     .check = check,
     .create = create,
-    .next = next,
+    .next = looks_next,
     .see = see,
     .archive = archive,
     .write = write,

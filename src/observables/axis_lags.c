@@ -4,6 +4,7 @@
 #include "observables/axis_lags.h"
 
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/put.h"
 
 #include <stdio.h>
@@ -62,13 +63,7 @@ Status axis_lags_create(Observer **out, const AxisCorrelation *what, const Setti
     self->labels = self->oriented.count + (self->oriented.count > 1);
     self->axes = oriented_particles(&self->oriented);
     const Lags lags = lags_chosen(lag_settings(settings), clock);
-    const Status status = allocate(self, &lags);
-    if (status != OK) {
-        axis_lags_free(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
+    return observer_begin(out, &self->observer, allocate(self, &lags));
 }
 
 int64_t axis_lags_next(const Observer *observer, int64_t after) {

@@ -8,6 +8,7 @@
 // w = 1, or 4 pi/13. Neighbours are nearer than a multiple of the contact distance.
 #include "base/constants.h"
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/looks.h"
 #include "observables/near_pairs.h"
 #include "observables/put.h"
@@ -22,14 +23,7 @@ typedef struct BondSettings {
 } BondSettings;
 
 static const Option rows[] = {
-    {.name = "looks",
-     .type = OPTION_INTEGER,
-     .offset = offsetof(BondSettings, looks),
-     .fallback = 100,
-     .least = 1,
-     .most = 1000000,
-     .unit = "",
-     .about = "Configurations looked at, evenly over the stage: at most this many."},
+    LOOKS_OPTION(BondSettings, looks, 100),
     {.name = "neighbours",
      .type = OPTION_REAL,
      .offset = offsetof(BondSettings, neighbours),
@@ -50,7 +44,6 @@ typedef struct Component {
 typedef struct BondOrder {
     Observer observer;
     int dimension;
-    int64_t period;
     size_t looks, done;
     double neighbours; // in contact distances
     NearPairs *pairs;
@@ -120,20 +113,10 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     TRY(NEW(self));
     self->observer = (Observer){.kind = &observable_bond_order, .clock = *clock};
     self->dimension = state->box.dimension;
-    self->period = period_for(settings, clock);
-    self->looks = (size_t)looks_count(clock, self->period);
+    self->observer.period = period_for(settings, clock);
+    self->looks = (size_t)looks_count(clock, self->observer.period);
     self->neighbours = ((const BondSettings *)settings->bytes)->neighbours;
-    const Status status = allocate(self, state);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return looks_next(&observer->clock, ((const BondOrder *)observer)->period, after);
+    return observer_begin(out, &self->observer, allocate(self, state));
 }
 
 static Component times(Component a, Component b) {
@@ -224,7 +207,7 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
         }
         local += invariant(self, mean) / (double)state->count;
     }
-    self->done = (size_t)(tick / self->period);
+    self->done = (size_t)(tick / self->observer.period);
     ASSERT(self->done >= 1 && self->done <= self->looks);
     self->values[LOCAL * self->looks + self->done - 1] = local;
     self->values[GLOBAL * self->looks + self->done - 1] = invariant(self, all);
@@ -262,7 +245,7 @@ static Status put_looks(const BondOrder *self, double *times_seen, Results *resu
     static const char *const orders[ORDERS] = {"local", "global"};
     const Clock *clock = &self->observer.clock;
     for (size_t k = 0; k < self->looks; k++) {
-        times_seen[k] = (double)(k + 1) * (double)self->period * clock->tick;
+        times_seen[k] = (double)(k + 1) * (double)self->observer.period * clock->tick;
     }
     const ResultSeries shape = {
         .unit = "",
@@ -299,7 +282,7 @@ const ObservableKind observable_bond_order = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(BondSettings)},
     .check = check,
     .create = create,
-    .next = next,
+    .next = looks_next,
     .see = see,
     .archive = archive,
     .write = write,

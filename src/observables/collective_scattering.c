@@ -6,6 +6,7 @@
 // Beside each lag stands S_ab over the very configurations at its two ends: the difference to F_ab
 // is then <|rho(t) - rho(0)|^2>/(2N), which knows the little that has changed as well as the much.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/frame.h"
 #include "observables/history.h"
 #include "observables/labels.h"
@@ -158,13 +159,7 @@ static Status create(Observer **out, const Settings *settings_, const State *sta
     self->observer = (Observer){.kind = &observable_collective_scattering, .clock = *clock};
     self->frame = settings->frame;
     const Lags lags = lags_chosen(&settings->lags, clock);
-    const Status status = allocate(self, settings, state, &lags);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
+    return observer_begin(out, &self->observer, allocate(self, settings, state, &lags));
 }
 
 static int64_t next(const Observer *observer, int64_t after) {

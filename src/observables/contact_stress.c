@@ -8,6 +8,7 @@
 // n, for g_ab(contact, theta), from the x axis towards the y axis; n and -n are the same pair.
 #include "base/constants.h"
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/labels.h"
 #include "observables/looks.h"
 #include "observables/near_pairs.h"
@@ -46,14 +47,7 @@ static const Option rows[] = {
      .most = 720,
      .unit = "",
      .about = "Sectors of the half turn from the x axis in which pairs are counted; discs only."},
-    {.name = "looks",
-     .type = OPTION_INTEGER,
-     .offset = offsetof(ContactSettings, looks),
-     .fallback = 1000,
-     .least = 1,
-     .most = 10000000,
-     .unit = "",
-     .about = "Configurations looked at, evenly over the stage: at most this many."},
+    LOOKS_OPTION(ContactSettings, looks, 1000),
 };
 
 enum { ELEMENTS = 6, XY = 2 };
@@ -66,7 +60,6 @@ static const struct {
 typedef struct ContactStress {
     Observer observer;
     NearPairs *pairs;
-    int64_t period; // ticks between looks
     double spacing;
     size_t elements, bins, angles, species_count;
     uint64_t looks;
@@ -136,23 +129,13 @@ static Status create(Observer **out, const Settings *settings_, const State *sta
     ContactStress *self = NULL;
     TRY(NEW(self));
     self->observer = (Observer){.kind = &observable_contact_stress, .clock = *clock};
-    self->period = looks_period(clock, settings->looks);
+    self->observer.period = looks_period(clock, settings->looks);
     self->spacing = settings->spacing;
     self->elements = state->box.dimension == 2 ? 3 : ELEMENTS;
     self->bins = bins_for(settings);
     self->angles = angles_for(settings, state->box.dimension);
     self->species_count = state->system.species_count;
-    const Status status = allocate(self, state, settings->last);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return looks_next(&observer->clock, ((const ContactStress *)observer)->period, after);
+    return observer_begin(out, &self->observer, allocate(self, state, settings->last));
 }
 
 // Sector of the half turn that the direction is in.
@@ -310,7 +293,7 @@ const ObservableKind observable_contact_stress = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(ContactSettings)},
     .check = check,
     .create = create,
-    .next = next,
+    .next = looks_next,
     .see = see,
     .archive = archive,
     .write = write,

@@ -5,6 +5,7 @@
 // Pairs are left out where u < 2^-21 kT, as the Markov chain leaves them out, and beyond half of
 // the box. The engine's own sums are not used.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/looks.h"
 #include "observables/near_pairs.h"
 #include "observables/put.h"
@@ -16,21 +17,13 @@ typedef struct EnergySettings {
 } EnergySettings;
 
 static const Option rows[] = {
-    {.name = "looks",
-     .type = OPTION_INTEGER,
-     .offset = offsetof(EnergySettings, looks),
-     .fallback = 200,
-     .least = 1,
-     .most = 1000000,
-     .unit = "",
-     .about = "Configurations looked at, evenly over the stage: at most this many."},
+    LOOKS_OPTION(EnergySettings, looks, 200),
 };
 
 static const double NEGLIGIBLE_BITS = 21; // an energy of 2^-21 kT is none
 
 typedef struct Energy {
     Observer observer;
-    int64_t period;
     size_t looks, done;
     int exponent;
     NearPairs *pairs;
@@ -82,24 +75,15 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     Energy *energy = NULL;
     TRY(NEW(energy));
     energy->observer = (Observer){.kind = &observable_energy, .clock = *clock};
-    energy->period = period_for(settings, clock);
-    energy->looks = (size_t)looks_count(clock, energy->period);
+    energy->observer.period = period_for(settings, clock);
+    energy->looks = (size_t)looks_count(clock, energy->observer.period);
     energy->exponent = (int)state->system.species[0].exponent;
     Status status = NEW_ARRAY(energy->values, energy->looks);
     if (status == OK) {
         status = near_pairs_create(&energy->pairs, &state->box, state->count,
                                    reach(&state->box, widest, energy->exponent));
     }
-    if (status != OK) {
-        discard(&energy->observer);
-        return status;
-    }
-    *out = &energy->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return looks_next(&observer->clock, ((const Energy *)observer)->period, after);
+    return observer_begin(out, &energy->observer, status);
 }
 
 // x^n by squaring: the same bits everywhere, which pow() has not.
@@ -124,7 +108,7 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
             sum += power(contact / pairs->distance[k], energy->exponent);
         }
     }
-    energy->done = (size_t)(tick / energy->period);
+    energy->done = (size_t)(tick / energy->observer.period);
     ASSERT(energy->done <= energy->looks);
     energy->values[energy->done - 1] = sum / (double)state->count;
     return OK;
@@ -159,7 +143,7 @@ static Status put_scalars(const Energy *energy, const State *state, Results *res
 static Status put_looks(const Energy *energy, double *times, Results *results, size_t replica) {
     const Clock *clock = &energy->observer.clock;
     for (size_t k = 0; k < energy->looks; k++) {
-        times[k] = (double)(k + 1) * (double)energy->period * clock->tick;
+        times[k] = (double)(k + 1) * (double)energy->observer.period * clock->tick;
     }
     const ResultSeries shape = {
         .unit = "kT",
@@ -197,7 +181,7 @@ const ObservableKind observable_energy = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(EnergySettings)},
     .check = check,
     .create = create,
-    .next = next,
+    .next = looks_next,
     .see = see,
     .archive = archive,
     .write = write,

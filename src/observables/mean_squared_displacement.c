@@ -4,6 +4,7 @@
 // the centre of mass is left in: a thermostat that redraws velocities conserves no momentum, so the
 // centre of N particles diffuses with D0/N, as that of N Brownian particles does.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/frame.h"
 #include "observables/history.h"
 #include "observables/labels.h"
@@ -85,13 +86,7 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     msd->frame = settings_in(settings)->frame;
     system_counts(&state->system, msd->population);
     const Lags lags = lags_chosen(lag_settings(settings), clock);
-    const Status status = allocate(msd, &lags);
-    if (status != OK) {
-        discard(&msd->observer);
-        return status;
-    }
-    *out = &msd->observer;
-    return OK;
+    return observer_begin(out, &msd->observer, allocate(msd, &lags));
 }
 
 static int64_t next(const Observer *observer, int64_t after) {

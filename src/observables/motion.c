@@ -3,6 +3,7 @@
 #include "observables/motion.h"
 
 #include "base/memory.h"
+#include "observables/begin.h"
 
 static size_t sum_count(const Motion *self) {
     return lags_rows(&self->moves.history.lags) * self->row_size;
@@ -23,12 +24,7 @@ void motion_free(Observer *observer) {
 }
 
 Status motion_begin(Observer **out, Motion *self, const State *state, const Lags *lags) {
-    const Status status = allocate(self, state, lags);
-    if (status == OK)
-        *out = &self->observer;
-    else
-        motion_free(&self->observer);
-    return status;
+    return observer_begin(out, &self->observer, allocate(self, state, lags));
 }
 
 int64_t motion_next(const Observer *observer, int64_t after) {

@@ -5,6 +5,7 @@
 // & Frenkel, Mol. Phys. 52, 1303, 1984), which vanishes in the isotropic phase but is biased in the
 // nematic, and the mean of P2(u_i.u_j) over pairs of different particles, which is S^2 in both.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/looks.h"
 #include "observables/oriented.h"
 #include "observables/put.h"
@@ -17,14 +18,7 @@ typedef struct OrderSettings {
 } OrderSettings;
 
 static const Option rows[] = {
-    {.name = "looks",
-     .type = OPTION_INTEGER,
-     .offset = offsetof(OrderSettings, looks),
-     .fallback = 1000,
-     .least = 1,
-     .most = 10000000,
-     .unit = "",
-     .about = "Configurations looked at, evenly over the stage: at most this many."},
+    LOOKS_OPTION(OrderSettings, looks, 1000),
     {.name = "blocks",
      .type = OPTION_INTEGER,
      .offset = offsetof(OrderSettings, blocks),
@@ -48,7 +42,7 @@ typedef struct NematicOrder {
     Observer observer;
     Oriented oriented;
     size_t labels; // species, and all of them if there are several
-    int64_t period, looks_per_block;
+    int64_t looks_per_block;
     size_t blocks;
     int64_t looks;
     OrderSums sums[SPECIES_MOST + 1];
@@ -95,20 +89,11 @@ static Status create(Observer **out, const Settings *settings_, const State *sta
     self->observer = (Observer){.kind = &observable_nematic_order, .clock = *clock};
     self->oriented = oriented_of(&state->system);
     self->labels = self->oriented.count + (self->oriented.count > 1);
-    self->period = period_for(settings, clock);
+    self->observer.period = period_for(settings, clock);
     self->looks_per_block = looks_per_block(settings, clock);
     self->blocks = blocks_for(settings, clock);
-    const Status status = NEW_ARRAY(self->blockwise, blockwise_size(self->labels, self->blocks));
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return looks_next(&observer->clock, ((const NematicOrder *)observer)->period, after);
+    return observer_begin(out, &self->observer,
+                          NEW_ARRAY(self->blockwise, blockwise_size(self->labels, self->blocks)));
 }
 
 // Mean of P2(u_i.u_j) over the pairs i != j: the sum of (u_i.u_j)^2 over all i, j is the sum of the
@@ -139,7 +124,7 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
     (void)tally;
     NematicOrder *self = (NematicOrder *)observer;
     const Oriented *oriented = &self->oriented;
-    const size_t block = (size_t)((tick / self->period - 1) / self->looks_per_block);
+    const size_t block = (size_t)((tick / self->observer.period - 1) / self->looks_per_block);
     double all[3][3] = {{0}};
     for (size_t s = 0; s < oriented->count; s++) {
         double sum[3][3] = {{0}};
@@ -211,7 +196,7 @@ static Status put_blocks(const NematicOrder *self, const Labels *labels, double 
     for (size_t b = 0; b < self->blocks; b++) {
         const double first = (double)((int64_t)b * self->looks_per_block + 1);
         const double last = (double)((int64_t)b * self->looks_per_block + looks_in(self, b));
-        times[b] = (first + last) / 2 * (double)self->period * clock->tick;
+        times[b] = (first + last) / 2 * (double)self->observer.period * clock->tick;
     }
     for (size_t i = 0; i < blockwise_size(self->labels, self->blocks); i++) {
         values[i] = self->blockwise[i] / (double)looks_in(self, i % self->blocks);
@@ -283,7 +268,7 @@ const ObservableKind observable_nematic_order = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(OrderSettings)},
     .check = check,
     .create = create,
-    .next = next,
+    .next = looks_next,
     .see = see,
     .archive = archive,
     .write = write,

@@ -30,6 +30,7 @@ typedef struct ObservableKind ObservableKind;
 typedef struct Observer {
     const ObservableKind *kind;
     Clock clock;
+    int64_t period; // ticks between its looks, where they are evenly spaced (looks.h)
 } Observer;
 
 struct ObservableKind {

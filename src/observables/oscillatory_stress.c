@@ -6,6 +6,7 @@
 // weakened by sin(n w h/2)/(n w h/2), which is divided out.
 #include "base/constants.h"
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/put.h"
 #include "observables/stresses.h"
 
@@ -122,12 +123,7 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     if (amplitude_of(clock) > 0) divide(self, clock, settings_in(settings)->skipped);
     Status status = NEW_ARRAY(self->sums, self->phases);
     if (status == OK) status = NEW_ARRAY(self->counts, self->phases);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
+    return observer_begin(out, &self->observer, status);
 }
 
 static int64_t next(const Observer *observer, int64_t after) {

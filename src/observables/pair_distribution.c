@@ -9,6 +9,7 @@
 // Bodies with an axis touch at many distances and soft ones at none: they have g(r) only, that of
 // their centres.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/labels.h"
 #include "observables/looks.h"
 #include "observables/near_pairs.h"
@@ -164,19 +165,14 @@ static Status create(Observer **out, const Settings *settings_, const State *sta
     if (status == OK && self->near.bins > 0) {
         status = make_histogram(&self->near, state, contact_range(state, &self->near));
     }
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
+    return observer_begin(out, &self->observer, status);
 }
 
 static int64_t next(const Observer *observer, int64_t after) {
     const PairDistribution *self = (const PairDistribution *)observer;
-    const int64_t far = looks_next(&observer->clock, self->far.period, after);
+    const int64_t far = looks_after(&observer->clock, self->far.period, after);
     if (self->near.bins == 0) return far;
-    const int64_t near = looks_next(&observer->clock, self->near.period, after);
+    const int64_t near = looks_after(&observer->clock, self->near.period, after);
     return far < near ? far : near;
 }
 

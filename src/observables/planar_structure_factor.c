@@ -5,6 +5,7 @@
 // the lattice tilts with the strain, and every look puts its vectors where they are by then. Since
 // S(-q) = S(q), a pixel and its mirror image share what they have.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/labels.h"
 #include "observables/looks.h"
 #include "observables/plane_waves.h"
@@ -50,14 +51,7 @@ static const Option rows[] = {
      .most = 22.5,
      .unit = "degrees",
      .about = "A cut takes the wave vectors within this angle of its direction."},
-    {.name = "looks",
-     .type = OPTION_INTEGER,
-     .offset = offsetof(PlanarSettings, looks),
-     .fallback = 200,
-     .least = 1,
-     .most = 10000000,
-     .unit = "",
-     .about = "Configurations looked at, evenly over the stage: at most this many."},
+    LOOKS_OPTION(PlanarSettings, looks, 200),
 };
 
 // Products of modes summed in bins: the pixels of the picture, or the bins of all cuts.
@@ -69,7 +63,6 @@ typedef struct Binned {
 
 typedef struct Planar {
     Observer observer;
-    int64_t period;
     size_t pairs;
     uint64_t looks;
     PlaneWaves waves;
@@ -125,15 +118,9 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     Planar *self = NULL;
     TRY(NEW(self));
     self->observer = (Observer){.kind = &observable_planar_structure_factor, .clock = *clock};
-    self->period = looks_period(clock, settings_in(settings)->looks);
+    self->observer.period = looks_period(clock, settings_in(settings)->looks);
     self->pairs = pair_count(state->system.species_count);
-    const Status status = allocate(self, settings_in(settings), state);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
+    return observer_begin(out, &self->observer, allocate(self, settings_in(settings), state));
 }
 
 static Status check(const Settings *settings_, const System *system, const Clock *clock) {
@@ -156,10 +143,6 @@ static Status check(const Settings *settings_, const System *system, const Clock
                            settings->last, shape.spacing);
     }
     return wave_vectors_check("planar_structure_factor", "wave_numbers.last", &box, settings->last);
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return looks_next(&observer->clock, ((const Planar *)observer)->period, after);
 }
 
 static void add(Binned *binned, const WaveModes *modes, const double *now) {
@@ -294,7 +277,7 @@ const ObservableKind observable_planar_structure_factor = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(PlanarSettings)},
     .check = check,
     .create = create,
-    .next = next,
+    .next = looks_next,
     .see = see,
     .archive = archive,
     .write = write,

@@ -4,6 +4,7 @@
 // The clock counts real flight time, d sqrt(m/kT), whatever the stage's unit. In Newtonian stages
 // kT is the temperature that the velocities have.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/looks.h"
 #include "observables/put.h"
 #include "observables/temperature.h"
@@ -29,7 +30,6 @@ static const Option rows[] = {
 // What the propagator had counted when a block ended.
 typedef struct Pressure {
     Observer observer;
-    int64_t period; // ticks of a block
     size_t blocks, done;
     double *collisions; // [blocks + 1], from tick 0
     double *virial;     // [blocks + 1], trace of the exchange
@@ -68,25 +68,16 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     Pressure *pressure = NULL;
     TRY(NEW(pressure));
     pressure->observer = (Observer){.kind = &observable_pressure, .clock = *clock};
-    pressure->period = period_for(settings, clock);
-    pressure->blocks = (size_t)looks_count(clock, pressure->period);
+    pressure->observer.period = period_for(settings, clock);
+    pressure->blocks = (size_t)looks_count(clock, pressure->observer.period);
     Status status = NEW_ARRAY(pressure->collisions, pressure->blocks + 1);
     if (status == OK) status = NEW_ARRAY(pressure->virial, pressure->blocks + 1);
-    if (status != OK) {
-        discard(&pressure->observer);
-        return status;
-    }
-    *out = &pressure->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return looks_next(&observer->clock, ((const Pressure *)observer)->period, after);
+    return observer_begin(out, &pressure->observer, status);
 }
 
 static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
     Pressure *pressure = (Pressure *)observer;
-    const size_t block = pressure->done = (size_t)(tick / pressure->period);
+    const size_t block = pressure->done = (size_t)(tick / pressure->observer.period);
     ASSERT(block <= pressure->blocks);
     pressure->collisions[block] = (double)tally->collisions;
     for (int a = 0; a < state->box.dimension; a++) {
@@ -112,7 +103,8 @@ static void archive(Observer *observer, Archive *archive) {
 
 // Over blocks [begin, end): their flight time, temperature and compressibility factor.
 static double flight(const Pressure *pressure, size_t begin, size_t end) {
-    return (double)(end - begin) * (double)pressure->period * pressure->observer.clock.flight_time;
+    return (double)(end - begin) * (double)pressure->observer.period *
+           pressure->observer.clock.flight_time;
 }
 
 static double temperature(const Pressure *pressure) {
@@ -149,7 +141,7 @@ static Status put_blocks(const Pressure *pressure, const State *state, double *v
     const Clock *clock = &pressure->observer.clock;
     const double density = (double)state->count / box_volume(&state->box);
     for (size_t b = 0; b < pressure->blocks; b++) {
-        times[b] = ((double)b + 0.5) * (double)pressure->period * clock->tick;
+        times[b] = ((double)b + 0.5) * (double)pressure->observer.period * clock->tick;
         values[b] =
             b < pressure->done ? density * compressibility(pressure, state, b, b + 1) : (double)NAN;
     }
@@ -188,7 +180,7 @@ const ObservableKind observable_pressure = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(PressureSettings)},
     .check = check,
     .create = create,
-    .next = next,
+    .next = looks_next,
     .see = see,
     .archive = archive,
     .write = write,

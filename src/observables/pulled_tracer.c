@@ -7,6 +7,7 @@
 // Trajectories that end by distance are short where the tracer was fast: a mean over velocities
 // would be too large. Distance over time, each summed over all trajectories, is not.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/put.h"
 #include "observables/tracer_frames.h"
 #include "propagator/tracer.h"
@@ -138,13 +139,7 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     tracer->dimension = state->box.dimension;
     tracer->furthest = settings_of(settings)->distance * state->box.edge[pull->axis];
     tracer->looking = looking_for(settings, &state->system, clock);
-    const Status status = allocate(tracer);
-    if (status != OK) {
-        discard(&tracer->observer);
-        return status;
-    }
-    *out = &tracer->observer;
-    return OK;
+    return observer_begin(out, &tracer->observer, allocate(tracer));
 }
 
 static int64_t next(const Observer *observer, int64_t after) {

@@ -2,6 +2,7 @@
 // One configuration, for a picture: where the particles of one replica were at the start or at the
 // end of the stage, and how those with a body axis were turned.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/oriented.h"
 #include "observables/put.h"
 
@@ -74,13 +75,8 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     snapshot->oriented = oriented_of(&state->system);
     snapshot->particles = state->count;
     snapshot->columns = columns_of(&state->system);
-    const Status status = NEW_ARRAY(snapshot->rows, snapshot->columns * state->count);
-    if (status != OK) {
-        discard(&snapshot->observer);
-        return status;
-    }
-    *out = &snapshot->observer;
-    return OK;
+    return observer_begin(out, &snapshot->observer,
+                          NEW_ARRAY(snapshot->rows, snapshot->columns * state->count));
 }
 
 static int64_t next(const Observer *observer, int64_t after) {

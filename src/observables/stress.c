@@ -4,6 +4,7 @@
 // the shear is steady and the time where it is not. A stage that begins with the shear shows the
 // overshoot; one that follows it gives the flow curve.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/looks.h"
 #include "observables/put.h"
 #include "observables/stresses.h"
@@ -40,7 +41,6 @@ static const Option rows[] = {
 
 typedef struct Stress {
     Observer observer;
-    int64_t period; // ticks of a window
     size_t windows, done;
     size_t first;        // window that is averaged over the stage
     double before[3][3]; // exchanged when the window began
@@ -93,25 +93,16 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     Stress *self = NULL;
     TRY(NEW(self));
     self->observer = (Observer){.kind = &observable_stress, .clock = *clock};
-    self->period = period_for(settings, clock);
-    self->windows = (size_t)looks_count(clock, self->period);
+    self->observer.period = period_for(settings, clock);
+    self->windows = (size_t)looks_count(clock, self->observer.period);
     self->first = first_window(settings, clock);
-    const Status status = NEW_ARRAY(self->stresses, self->windows * STRESSES_MOST);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return looks_next(&observer->clock, ((const Stress *)observer)->period, after);
+    return observer_begin(out, &self->observer,
+                          NEW_ARRAY(self->stresses, self->windows * STRESSES_MOST));
 }
 
 static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
     Stress *self = (Stress *)observer;
-    const size_t window = (size_t)(tick / self->period) - 1;
+    const size_t window = (size_t)(tick / self->observer.period) - 1;
     ASSERT(window < self->windows);
     double exchange[3][3];
     for (int a = 0; a < 3; a++) {
@@ -119,7 +110,7 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
     }
     const double temperature = observer->clock.thermostatted ? 1 : temperature_relative(state);
     stresses_of(exchange, (double)state->count * temperature, &state->box,
-                (double)self->period * observer->clock.flight_time,
+                (double)self->observer.period * observer->clock.flight_time,
                 self->stresses + window * STRESSES_MOST);
     memcpy(self->before, tally->exchange, sizeof self->before);
     self->done = window + 1;
@@ -172,7 +163,7 @@ static double relative_error(const Observer *observer) {
     const Stress *self = (const Stress *)observer;
     if (self->done <= self->first || (self->done - self->first) % STRETCHES != 0) return INFINITY;
     const double windows = (double)(self->done - self->first);
-    if (windows * (double)self->period * advance_of(&observer->clock) < STRAIN_LEAST) {
+    if (windows * (double)self->observer.period * advance_of(&observer->clock) < STRAIN_LEAST) {
         return INFINITY;
     }
     const double error = fmax(error_from(self, STRETCHES), error_from(self, STRETCHES / 2));
@@ -197,8 +188,8 @@ static Status put_scalars(const Stress *self, const State *state, Results *resul
     const double rate = steady_rate(clock);
     if (rate == 0) return OK;
     TRY(observer_put_scalar(observer, "stress_strain", "", NULL, results, replica,
-                            ((double)self->done - (double)self->first) * (double)self->period *
-                                advance_of(clock)));
+                            ((double)self->done - (double)self->first) *
+                                (double)self->observer.period * advance_of(clock)));
     return observer_put_scalar(observer, "shear_viscosity", dimension == 2 ? "kT/D0" : "kT/(d D0)",
                                NULL, results, replica, stage_mean(self, 0) / rate);
 }
@@ -209,7 +200,7 @@ static Status put_windows(const Stress *self, const State *state, double *values
     const double rate = steady_rate(clock);
     const size_t kinds = stress_count(state->box.dimension);
     for (size_t w = 0; w < self->windows; w++) {
-        axis[w] = ((double)w + 0.5) * (double)self->period * advance_of(clock);
+        axis[w] = ((double)w + 0.5) * (double)self->observer.period * advance_of(clock);
         for (size_t s = 0; s < kinds; s++) {
             values[s * self->windows + w] =
                 w < self->done ? self->stresses[w * STRESSES_MOST + s] : (double)NAN;
@@ -253,7 +244,7 @@ const ObservableKind observable_stress = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(StressSettings)},
     .check = check,
     .create = create,
-    .next = next,
+    .next = looks_next,
     .see = see,
     .archive = archive,
     .write = write,

@@ -5,6 +5,7 @@
 // them than wanted, an even choice over all directions. The total is given in stretches of the
 // stage as well: its peak rises where particles order.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/labels.h"
 #include "observables/looks.h"
 #include "observables/put.h"
@@ -44,19 +45,11 @@ static const Option rows[] = {
      .most = 1000000,
      .unit = "",
      .about = "Most wave vectors in a shell, q and -q counted once; 0 takes all."},
-    {.name = "looks",
-     .type = OPTION_INTEGER,
-     .offset = offsetof(StructureSettings, looks),
-     .fallback = 60,
-     .least = 1,
-     .most = 10000000,
-     .unit = "",
-     .about = "Configurations looked at, evenly over the stage: at most this many."},
+    LOOKS_OPTION(StructureSettings, looks, 60),
 };
 
 typedef struct StructureFactor {
     Observer observer;
-    int64_t period;
     size_t species_count;
     WaveVectors vectors;
     WaveModes modes;
@@ -115,17 +108,11 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     StructureFactor *self = NULL;
     TRY(NEW(self));
     self->observer = (Observer){.kind = &observable_structure_factor, .clock = *clock};
-    self->period = looks_period(clock, chosen->looks);
-    const int64_t looks = looks_count(clock, self->period);
+    self->observer.period = looks_period(clock, chosen->looks);
+    const int64_t looks = looks_count(clock, self->observer.period);
     self->stretches = looks < STRETCHES ? (size_t)looks : STRETCHES;
     self->species_count = state->system.species_count;
-    const Status status = allocate(self, chosen, state);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
+    return observer_begin(out, &self->observer, allocate(self, chosen, state));
 }
 
 static Status check(const Settings *settings_, const System *system, const Clock *clock) {
@@ -141,15 +128,11 @@ static Status check(const Settings *settings_, const System *system, const Clock
                        settings->last, least);
 }
 
-static int64_t next(const Observer *observer, int64_t after) {
-    return looks_next(&observer->clock, ((const StructureFactor *)observer)->period, after);
-}
-
 static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
     (void)tally;
     StructureFactor *self = (StructureFactor *)observer;
-    const int64_t looks = looks_count(&self->observer.clock, self->period);
-    const int64_t stretch = (tick / self->period - 1) * (int64_t)self->stretches / looks;
+    const int64_t looks = looks_count(&self->observer.clock, self->observer.period);
+    const int64_t stretch = (tick / self->observer.period - 1) * (int64_t)self->stretches / looks;
     wave_modes_find(&self->modes, state, self->now);
     wave_modes_add_products(&self->modes, &self->vectors, self->now, self->now,
                             self->products + (size_t)stretch * width_of(self));
@@ -218,11 +201,11 @@ static Status put(const StructureFactor *self, const State *state, const Filled 
     Labels pairs;
     labels_of_pairs(&pairs, &state->system, "total");
     const Clock *clock = &self->observer.clock;
-    const double looks = (double)looks_count(clock, self->period);
+    const double looks = (double)looks_count(clock, self->observer.period);
     double times[STRETCHES];
     for (size_t t = 0; t < self->stretches; t++)
-        times[t] = ceil((double)(t + 1) * looks / (double)self->stretches) * (double)self->period *
-                   clock->tick;
+        times[t] = ceil((double)(t + 1) * looks / (double)self->stretches) *
+                   (double)self->observer.period * clock->tick;
     const ResultAxis wave = {.name = "wave_number",
                              .unit = "1/d",
                              .count = filled->filled,
@@ -277,7 +260,7 @@ const ObservableKind observable_structure_factor = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(StructureSettings)},
     .check = check,
     .create = create,
-    .next = next,
+    .next = looks_next,
     .see = see,
     .archive = archive,
     .write = write,

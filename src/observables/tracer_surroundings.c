@@ -6,6 +6,7 @@
 #include "base/constants.h"
 #include "base/memory.h"
 #include "numerics/vector.h"
+#include "observables/begin.h"
 #include "observables/looks.h"
 #include "observables/put.h"
 #include "observables/tracer_frames.h"
@@ -19,14 +20,7 @@ typedef struct RingSettings {
 } RingSettings;
 
 static const Option rows[] = {
-    {.name = "looks",
-     .type = OPTION_INTEGER,
-     .offset = offsetof(RingSettings, looks),
-     .fallback = 1000,
-     .least = 1,
-     .most = 10000000,
-     .unit = "",
-     .about = "Configurations looked at, evenly over the stage: at most this many."},
+    LOOKS_OPTION(RingSettings, looks, 1000),
     {.name = "reach",
      .type = OPTION_REAL,
      .offset = offsetof(RingSettings, reach),
@@ -62,7 +56,7 @@ typedef struct Rings {
     RingSettings settings;
     size_t particle, along, across; // numbers of rings
     int axis;
-    int64_t period, on, begin, spacing; // ticks
+    int64_t period, on, begin; // ticks
     uint64_t looks;
     double touching[ENDS]; // particles in the shells, over all looks
     double *count;         // [along][across] particles seen
@@ -125,21 +119,12 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     rings->axis = (int)pull->axis;
     rings->across = rings_across(&rings->settings);
     rings->along = 2 * rings->across;
-    rings->spacing = looks_period(clock, rings->settings.looks);
+    rings->observer.period = looks_period(clock, rings->settings.looks);
     drive_pull_ticks(pull, clock->tick, clock->ticks_per_step, &rings->period, &rings->on);
     rings->begin = (int64_t)ceil(rings->settings.begin / clock->tick);
     Status status = NEW_ARRAY(rings->count, rings->along * rings->across);
     if (status == OK) status = NEW_ARRAY(rings->order, rings->along * rings->across);
-    if (status != OK) {
-        discard(&rings->observer);
-        return status;
-    }
-    *out = &rings->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return looks_next(&observer->clock, ((const Rings *)observer)->spacing, after);
+    return observer_begin(out, &rings->observer, status);
 }
 
 static void add(Rings *rings, double x, double rho, double order) {
@@ -327,7 +312,7 @@ const ObservableKind observable_tracer_surroundings = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(RingSettings)},
     .check = check,
     .create = create,
-    .next = next,
+    .next = looks_next,
     .see = see,
     .archive = archive,
     .write = write,

@@ -2,6 +2,7 @@
 // Histogram of velocity components, each scaled by the thermal velocity of its own mass: Maxwell's
 // exp(-u^2/2)/sqrt(2 pi) for every species, whatever the dynamics; and the kinetic temperature.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/labels.h"
 #include "observables/looks.h"
 #include "observables/put.h"
@@ -31,20 +32,12 @@ static const Option rows[] = {
      .most = 1,
      .unit = "sqrt(kT/m)",
      .about = "Width of a bin of the histogram."},
-    {.name = "looks",
-     .type = OPTION_INTEGER,
-     .offset = offsetof(VelocitySettings, looks),
-     .fallback = 200,
-     .least = 1,
-     .most = 10000000,
-     .unit = "",
-     .about = "Configurations looked at, evenly over the stage: at most this many."},
+    LOOKS_OPTION(VelocitySettings, looks, 200),
 };
 
 typedef struct Velocities {
     Observer observer;
     double spacing;
-    int64_t period;
     size_t half; // bins on each side of zero
     size_t species_count;
     uint64_t *counts;               // [species][2 half]
@@ -77,20 +70,11 @@ static Status create(Observer **out, const Settings *settings_, const State *sta
     velocities->observer = (Observer){.kind = &observable_velocity_distribution, .clock = *clock};
     velocities->spacing = settings->spacing;
     velocities->half = half_for(settings);
-    velocities->period = looks_period(clock, settings->looks);
+    velocities->observer.period = looks_period(clock, settings->looks);
     velocities->species_count = state->system.species_count;
-    const Status status =
-        NEW_ARRAY(velocities->counts, velocities->species_count * 2 * velocities->half);
-    if (status != OK) {
-        discard(&velocities->observer);
-        return status;
-    }
-    *out = &velocities->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return looks_next(&observer->clock, ((const Velocities *)observer)->period, after);
+    return observer_begin(
+        out, &velocities->observer,
+        NEW_ARRAY(velocities->counts, velocities->species_count * 2 * velocities->half));
 }
 
 static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
@@ -201,7 +185,7 @@ const ObservableKind observable_velocity_distribution = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(VelocitySettings)},
     .check = check,
     .create = create,
-    .next = next,
+    .next = looks_next,
     .see = see,
     .archive = archive,
     .write = write,

@@ -2,6 +2,7 @@
 // Mean velocity along the flow against the place across it: under steady shear v_x = shear_rate y,
 // a straight line. That it is one within its errors is the health of the flow: no bands, no slip.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/looks.h"
 #include "observables/put.h"
 
@@ -20,19 +21,11 @@ static const Option rows[] = {
      .most = 10000,
      .unit = "",
      .about = "Layers of equal height that the box is cut into."},
-    {.name = "looks",
-     .type = OPTION_INTEGER,
-     .offset = offsetof(ProfileSettings, looks),
-     .fallback = 1000,
-     .least = 1,
-     .most = 10000000,
-     .unit = "",
-     .about = "Configurations looked at, evenly over the stage: at most this many."},
+    LOOKS_OPTION(ProfileSettings, looks, 1000),
 };
 
 typedef struct Profile {
     Observer observer;
-    int64_t period;
     size_t bins;
     double *sums;         // [bins], of velocities less those of the flow, in sqrt(kT/m)
     uint64_t *counts;     // [bins]
@@ -70,21 +63,12 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     TRY(NEW(self));
     self->observer = (Observer){.kind = &observable_velocity_profile, .clock = *clock};
     self->bins = (size_t)settings_in(settings)->bins;
-    self->period = looks_period(clock, settings_in(settings)->looks);
+    self->observer.period = looks_period(clock, settings_in(settings)->looks);
     if (is_steady(clock))
         self->shear_rate = clock->drive->flow.rate * clock->tick / clock->flight_time;
     Status status = NEW_ARRAY(self->sums, self->bins);
     if (status == OK) status = NEW_ARRAY(self->counts, self->bins);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return looks_next(&observer->clock, ((const Profile *)observer)->period, after);
+    return observer_begin(out, &self->observer, status);
 }
 
 static Status see(Observer *observer, int64_t tick, const State *state, const Tally *tally) {
@@ -161,7 +145,7 @@ const ObservableKind observable_velocity_profile = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(ProfileSettings)},
     .check = check,
     .create = create,
-    .next = next,
+    .next = looks_next,
     .see = see,
     .archive = archive,
     .write = write,

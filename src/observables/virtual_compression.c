@@ -8,6 +8,7 @@
 // counted once, in the bin of s where it meets, and the histogram is extrapolated to 1 like a
 // contact value. Of spheres it is one: s is the distance over that of contact.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/looks.h"
 #include "observables/near_pairs.h"
 #include "observables/put.h"
@@ -37,19 +38,11 @@ static const Option rows[] = {
      .most = 0.1,
      .unit = "",
      .about = "Width of a bin of it."},
-    {.name = "looks",
-     .type = OPTION_INTEGER,
-     .offset = offsetof(CompressionSettings, looks),
-     .fallback = 500,
-     .least = 1,
-     .most = 10000000,
-     .unit = "",
-     .about = "Configurations looked at, evenly over the stage: at most this many."},
+    LOOKS_OPTION(CompressionSettings, looks, 500),
 };
 
 typedef struct Compression {
     Observer observer;
-    int64_t period; // ticks between looks
     double spacing;
     size_t bins;
     NearPairs *pairs;
@@ -129,23 +122,14 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     Compression *self = NULL;
     TRY(NEW(self));
     self->observer = (Observer){.kind = &observable_virtual_compression, .clock = *clock};
-    self->period = looks_period(clock, own(settings)->looks);
+    self->observer.period = looks_period(clock, own(settings)->looks);
     self->spacing = own(settings)->spacing;
     self->bins = bins_for(own(settings));
     const double range =
         fmin(range_for(own(settings), widest_here(state)), box_shortest_edge(&state->box) / 2);
     Status status = NEW_ARRAY(self->counts, self->bins);
     if (status == OK) status = near_pairs_create(&self->pairs, &state->box, state->count, range);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
-}
-
-static int64_t next(const Observer *observer, int64_t after) {
-    return looks_next(&observer->clock, ((const Compression *)observer)->period, after);
+    return observer_begin(out, &self->observer, status);
 }
 
 typedef struct Posed {
@@ -260,7 +244,7 @@ const ObservableKind observable_virtual_compression = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(CompressionSettings)},
     .check = check,
     .create = create,
-    .next = next,
+    .next = looks_next,
     .see = see,
     .archive = archive,
     .write = write,

@@ -7,6 +7,7 @@
 // At rest no direction is marked, so besides sigma_xy the other shear stresses that the tensor has
 // in turned frames are squared as well: 2 in the plane, 5 in space, which do not correlate.
 #include "base/memory.h"
+#include "observables/begin.h"
 #include "observables/history.h"
 #include "observables/put.h"
 
@@ -76,12 +77,7 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     self->observer = (Observer){.kind = &observable_viscosity, .clock = *clock};
     Status status = history_make(&self->history, &lags, shears_of(state->box.dimension));
     if (status == OK) status = NEW_ARRAY(self->sums, lags.count);
-    if (status != OK) {
-        discard(&self->observer);
-        return status;
-    }
-    *out = &self->observer;
-    return OK;
+    return observer_begin(out, &self->observer, status);
 }
 
 static int64_t next(const Observer *observer, int64_t after) {

@@ -65,8 +65,8 @@ START_TEST(looks_are_even_and_never_too_many) {
         const Clock clock = clock_of(steps * 4, 4);
         const int64_t period = looks_period(&clock, 50);
         int64_t count = 0;
-        for (int64_t t = looks_next(&clock, period, -1); t <= clock.ticks;
-             t = looks_next(&clock, period, t), count++) {
+        for (int64_t t = looks_after(&clock, period, -1); t <= clock.ticks;
+             t = looks_after(&clock, period, t), count++) {
             ck_assert_int_eq(t % 4, 0);
             ck_assert_int_gt(t, 0);
         }
