@@ -338,24 +338,13 @@ static size_t memory(const Settings *settings_, const System *system, const Cloc
            (frame + (groups_of(&lags) + 2 * lags_rows(&lags)) * sums) * sizeof(double);
 }
 
-// An even choice is as good as all where the modes of a run forget each other; in a glass they do
-// not, and each vector counts once.
 static Status describe(const Settings *settings_, const System *system, Text *lines) {
     const CollectiveSettings *settings = settings_in(settings_);
     const Box box = system_box(system);
     Shell shells[OPTION_LIST_SIZE];
     const size_t count = shells_of(settings, system, shells);
-    WaveVectors all;
-    const Status status = wave_vectors_make(&all, &box, shells, count, 0);
-    double most = 0;
-    for (size_t k = 0; k < count && status == OK; k++) most = fmax(most, all.members[k]);
-    if (settings->vectors > 0 && most > (double)settings->vectors)
-        text_add(lines,
-                 "%lld of up to %.0f wave vectors in a shell: enough for a fluid; in a glass each "
-                 "counts once, take all (shell.vectors: 0)\n",
-                 (long long)settings->vectors, most);
-    wave_vectors_clear(&all);
-    return status;
+    wave_vectors_describe(&box, shells, count, settings->vectors, "shell.vectors", lines);
+    return OK;
 }
 
 const ObservableKind observable_collective_scattering = {

@@ -44,7 +44,8 @@ static const Option rows[] = {
      .least = 0,
      .most = 1000000,
      .unit = "",
-     .about = "Most wave vectors in a shell, q and -q counted once; 0 takes all."},
+     .about = "Most wave vectors in a shell, q and -q counted once; 0 takes all, as one "
+              "must in a glass, where no time averages what was left out."},
     LOOKS_OPTION(StructureSettings, looks, 60),
 };
 
@@ -254,6 +255,17 @@ static size_t memory(const Settings *settings_, const System *system, const Cloc
                sizeof(double);
 }
 
+static Status describe(const Settings *settings_, const System *system, Text *lines) {
+    const StructureSettings *settings = (const StructureSettings *)settings_->bytes;
+    const Box box = system_box(system);
+    Shell *shells = NULL;
+    TRY(shells_make(&shells, settings));
+    wave_vectors_describe(&box, shells, shell_count(settings), settings->vectors,
+                          "wave_numbers.vectors", lines);
+    memory_free(shells);
+    return OK;
+}
+
 const ObservableKind observable_structure_factor = {
     .name = "structure_factor",
     .about = "Partial and total static structure factors on the reciprocal lattice of the box.",
@@ -266,4 +278,5 @@ const ObservableKind observable_structure_factor = {
     .write = write,
     .free = discard,
     .memory = memory,
+    .describe = describe,
 };

@@ -201,6 +201,21 @@ Status wave_vectors_check(const char *observable, const char *option, const Box 
                        observable, option, last, walk_length(box, last), WALK_MOST);
 }
 
+// An even choice is as good as all where the modes of a run forget each other; in a glass they do
+// not, and each vector counts once.
+void wave_vectors_describe(const Box *box, const Shell *shells, size_t count, int64_t most,
+                           const char *option, Text *lines) {
+    double fullest = 0;
+    for (size_t k = 0; k < count; k++)
+        fullest =
+            fmax(fullest, vectors_within(box, shells[k].high) - vectors_within(box, shells[k].low));
+    if (most == 0 || fullest <= (double)most) return;
+    text_add(lines,
+             "%lld of up to about %.3g wave vectors in a shell: enough for a fluid; in a glass "
+             "each counts once, take all (%s: 0)\n",
+             (long long)most, fullest, option);
+}
+
 Status wave_vectors_check_rest(const char *observable, const char *instead, const Clock *clock) {
     if (!clock->drive || !(drive_kinds(clock->drive) & DRIVE_FLOW)) return OK;
     return status_fail(BAD_DATA, "%s is of a stage at rest, and stage '%s' is sheared; take %s",

@@ -50,6 +50,11 @@ Status wave_numbers_check(const char *observable, const OptionReals *given, cons
 // `option` is what the run file calls `last`.
 Status wave_vectors_check(const char *observable, const char *option, const Box *box, double last);
 
+// A line for `perrin check` where shells have more vectors than are taken; `option` is what the run
+// file calls `most`.
+void wave_vectors_describe(const Box *box, const Shell *shells, size_t count, int64_t most,
+                           const char *option, Text *lines);
+
 // BAD_DATA with a sentence if the stage is sheared: shells of the lattice at rest do not stay
 // shells. `instead` says what to take.
 Status wave_vectors_check_rest(const char *observable, const char *instead, const Clock *clock);
