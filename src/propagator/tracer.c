@@ -3,9 +3,11 @@
 #include "propagator/tracer.h"
 
 #include "base/constants.h"
+#include "base/nearest.h"
 #include "shapes/overlap.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 size_t tracer_species(const Pull *pull, const System *system) {
@@ -21,19 +23,50 @@ size_t tracer_particle(const Pull *pull, const System *system) {
     return particle;
 }
 
+static Status unknown_species(const Pull *pull, const System *system) {
+    const char *names[SPECIES_MOST];
+    char all[256] = "";
+    size_t length = 0;
+    for (size_t s = 0; s < system->species_count; s++) {
+        names[s] = system->species[s].name;
+        if (length < sizeof all)
+            length += (size_t)snprintf(all + length, sizeof all - length, "%s%s", s ? ", " : "",
+                                       names[s]);
+    }
+    const size_t meant = nearest_word(pull->species, names, system->species_count);
+    if (meant < system->species_count)
+        return status_fail(
+            BAD_DATA,
+            "pull = {species: %s}: there is no such species in the system; did you mean %s?",
+            pull->species, names[meant]);
+    return status_fail(BAD_DATA,
+                       "pull = {species: %s}: there is no such species in the system; its "
+                       "species are %s",
+                       pull->species, all);
+}
+
+// A single particle among the others is the tracer that was meant.
+static Status not_single(const Pull *pull, const System *system, const size_t *counts) {
+    const size_t named = counts[tracer_species(pull, system)];
+    size_t s = 1;
+    while (s < system->species_count && counts[s] != 1) s++;
+    if (s < system->species_count)
+        return status_fail(BAD_DATA,
+                           "pull = {species: %s}: these are %zu particles, and the force is on "
+                           "one, the tracer; of %s there is one: pull that",
+                           pull->species, named, system->species[s].name);
+    return status_fail(BAD_DATA,
+                       "pull = {species: %s}: these are %zu particles, and the force is on one, "
+                       "the tracer; make it a species of its own with count: 1",
+                       pull->species, named);
+}
+
 Status tracer_check(const Pull *pull, const System *system) {
     const size_t s = tracer_species(pull, system);
     size_t counts[SPECIES_MOST];
     system_counts(system, counts);
-    if (s == system->species_count)
-        return status_fail(BAD_DATA, "pull = {species: %s}: there is no such species in the system",
-                           pull->species);
-    if (counts[s] != 1)
-        return status_fail(
-            BAD_DATA,
-            "pull = {species: %s}: these are %zu particles, and the force is on one, "
-            "the tracer; make it a species of its own with count: 1",
-            pull->species, counts[s]);
+    if (s == system->species_count) return unknown_species(pull, system);
+    if (counts[s] != 1) return not_single(pull, system, counts);
     if (s == 0)
         return status_fail(BAD_DATA,
                            "pull = {species: %s}: steps and times go by the first species, which "
