@@ -216,23 +216,36 @@ static double seconds(const Settings *settings, const System *system) {
     return tick(settings, system) / predicted_cycle(set, system) * chain_seconds_per_trial(system);
 }
 
+// The crowd in front of a strongly pulled tracer is kT/F thick, and a trial that is longer does not
+// see it: the friction is then off by so much times the work of a trial over kT, of soft spheres
+// at packing fractions of 0.2 to 0.5 (gallery: tracer-clocks, friction-curves).
+static void describe_crowd(const Pull *pull, double work, Text *lines) {
+    static const double TOO_LARGE = 0.13, TOO_SMALL = 0.08, WORTH_SAYING = 0.05, STRONG = 20;
+    const bool drifted = pull->clock == PULL_DRIFTED;
+    const double off = (drifted ? TOO_LARGE : TOO_SMALL) * work;
+    if (pull->clock == PULL_FIRST_ORDER || pull->peclet < STRONG || off < WORTH_SAYING) return;
+    text_add(lines,
+             "at this step the friction of a dense bath may come out some %.0f %% too %s: a second "
+             "step and a straight line to none remove it\n",
+             100 * off, drifted ? "large" : "small");
+}
+
 static void describe_pull(const Dynamic *set, const System *system, const Pull *pull, Text *lines) {
     const size_t s = tracer_species(pull, system);
-    const double force = drive_pull_force(pull, system->species[s].diameter);
     const double step = first_step(set, system, s);
-    if (pull->clock != PULL_DRIFTED) {
-        text_add(lines, "the work of a trial of %s is up to %.3g kT\n", pull->species,
-                 force * step);
-        return;
-    }
-    text_add(lines, "%s drifts by %.3g d in a trial, %.3g of its thermal spread\n", pull->species,
-             force * step * step / 6, force * step / sqrt(12));
+    const double work = drive_pull_force(pull, system->species[s].diameter) * step;
+    text_add(lines, "the work of a trial of %s is up to %.3g kT\n", pull->species, work);
+    if (pull->clock == PULL_DRIFTED)
+        text_add(lines, "%s drifts by %.3g d in a trial, %.3g of its thermal spread\n",
+                 pull->species, work * step / 6, work / sqrt(12));
     const double pressed = pressed_step(set, system, pull);
-    if (set->step > pressed)
+    if (pull->clock == PULL_DRIFTED && set->step > pressed)
         text_add(lines,
                  "at this step %s, pressed against its neighbours, may not keep the bath's pace: "
                  "take one below about %.2g\n",
                  pull->species, pressed);
+    else
+        describe_crowd(pull, work, lines);
 }
 
 static void describe(const Settings *settings, const System *system, const Drive *drive,

@@ -86,6 +86,24 @@ expect "check warns of lags beyond the stage" waits 0.15
 expect "check does not of those within" waits_in_vain 0.1
 expect "check does not of a longer stage" waits_in_vain 0.15 --set protocol.rest.time=0.25
 
+# Of a strongly pulled tracer, what a long trial makes of the friction, and where it runs away.
+of_step() { # WORDS SETTINGS...
+    words=$1
+    shift
+    "$perrin" check pulled.yaml --set protocol.pulled.pull.period=0 \
+        --set system.species.tracer.diameter=1 --set protocol.pulled.pull.peclet=50 "$@" |
+        grep -q "$words"
+}
+not_of_step() { ! of_step "$@"; }
+exact=protocol.pulled.pull.clock=exact-force
+expect "check says how far a drifted trial is off" of_step 'some 13 % too large' --set dynamics.step=0.01
+expect "and one of exact mean" of_step 'some 16 % too small' --set dynamics.step=0.02 --set $exact
+expect "of a short one it says nothing" not_of_step '% too' --set dynamics.step=0.003 --set $exact
+expect "nor of a weak force" not_of_step '% too' --set dynamics.step=0.04 --set $exact \
+    --set protocol.pulled.pull.peclet=15
+expect "a longer drifted one runs away" of_step "keep the bath's pace" --set dynamics.step=0.04
+expect "of which it is not said how far it is off" not_of_step '% too' --set dynamics.step=0.04
+
 # Numbers.
 "$perrin" show small > table
 "$perrin" show small --csv > table.csv
