@@ -15,6 +15,7 @@ plot "measured.csv" using 3:(flow("flow_glass", $5)):6 with yerrorbars linetype 
      "" using 3:(flow("flow_fluid", $5)):6 with yerrorbars linetype 1 title "0.7869, 1 % below", \
      "< grep ',theory_flow_glass,' measured.csv" using 3:5 with lines linetype 2 title "theory, ε = 0.01", \
      "< grep ',theory_flow_fluid,' measured.csv" using 3:5 with lines linetype 1 title "ε = -0.01", \
+     "< grep ',theory_flow_simulated,.*,stress,' measured.csv" using 3:5 with lines linetype 4 title "ε = 0.01, S(q) simulated", \
      "< grep ',theory_flow_glass,' measured.csv" using 3:($5/10) with lines linetype 2 dashtype 2 title "theory over 10"
 unset logscale
 set format "%g"
