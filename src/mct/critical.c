@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "mct/glass.h"
 #include "mct/grid.h"
+#include "mct/stretch.h"
 
 #include <gsl/gsl_linalg.h>
 
@@ -23,6 +24,7 @@ static const double TOLERANCE = 0.4;   // of what is aimed at: how far a state m
 static const double NEARER = 0.4;      // of s: what is aimed at from far, lest it be a fluid, which
                                        // takes longest to tell near the transition
 static const double SLOPE_STEP = 1e-3; // of phi/phi_c, for the derivative of sigma
+static const double STRAIN = 1e-3;     // for the derivative of sigma with its square
 
 typedef struct CriticalState {
     double packing_fraction, s, lambda;
@@ -259,6 +261,25 @@ static Status separation_at(Search *search, double packing_fraction, double *sep
                             separation);
 }
 
+// What a strain takes from sigma, over its square, at the transition.
+static Status find_shear(Search *search, const Structure *structure, double *shear) {
+    Model *model = search->model;
+    const CriticalState *critical = &search->states[0];
+    Stretch *stretch = NULL;
+    double rest, strained;
+    *shear = NAN;
+    if (model->species > 1) return OK;
+    model_set(model, structure);
+    TRY(glass_separation(model, critical->form, critical->left, &rest));
+    TRY(stretch_create(&stretch, search->grid, structure));
+    model->stretched = stretch_direct(stretch, STRAIN);
+    const Status status = glass_separation(model, critical->form, critical->left, &strained);
+    model->stretched = NULL;
+    stretch_free(stretch);
+    if (status == OK) *shear = (rest - strained) / (STRAIN * STRAIN);
+    return status;
+}
+
 static Status finish(Search *search, CriticalPoint *point) {
     double above, below;
     const Structure *structure = NULL;
@@ -269,6 +290,7 @@ static Status finish(Search *search, CriticalPoint *point) {
     point->expected_curvature =
         point->packing_fraction / (4 * point->slope * (1 - point->exponents.lambda));
     TRY(oz_solve(search->oz, point->packing_fraction, &structure));
+    TRY(find_shear(search, structure, &point->shear));
     memcpy(point->factor, structure->factor,
            search->model->pairs * point->count * sizeof *point->factor);
     memcpy(point->wave_number, search->grid->wave_number, point->count * sizeof(double));

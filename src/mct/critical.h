@@ -10,6 +10,9 @@ typedef struct CriticalPoint {
     double packing_fraction;
     Exponents exponents;
     double slope; // C: the separation parameter is C (phi - phi_c)/phi_c
+    // c of sigma - c (rate t)^2 + lambda G^2 = d/dt int GG in the isotropically sheared model
+    // (Weysser, thesis, eqs 5.42-5.43); NAN of a mixture
+    double shear;
     // (phi - phi_c)/s^2 for s = 1 - E -> 0 as found, and phi_c/(4 C (1 - lambda)) as it must be
     double curvature, expected_curvature;
     size_t count;

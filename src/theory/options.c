@@ -140,7 +140,8 @@ static const Option rows[] = {
      .least = 0,
      .most = 1e6,
      .unit = "",
-     .about = "c (shear rate t_sigma)^2 of the beta-scaling functions under shear; 0: at rest."},
+     .about = "c (shear rate t_sigma)^2 of the beta-scaling functions under shear; 0: at rest. The "
+              "result shear_coefficient is c, of the isotropically sheared model."},
     {.name = "flow_curve.first",
      .type = OPTION_REAL,
      .offset = offsetof(TheoryPlan, first_rate),

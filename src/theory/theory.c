@@ -24,7 +24,7 @@ static const double MASTER_FIRST = 1e-5, MASTER_LAST = 1e3; // of t in units of 
 static const double NOT_DIFFUSIVE = 0.01;
 
 // What is known of the transition as numbers.
-enum { NUMBERS = 7 };
+enum { NUMBERS = 8 };
 typedef struct Numbers {
     double value[NUMBERS];
 } Numbers;
@@ -78,14 +78,18 @@ static const struct {
     {"exponent_gamma", "Exponent gamma = 1/(2 a) + 1/(2 b) of the time of the final decay.", true},
     {"von_schweidler_amplitude", "Amplitude B of G -> -B (t/t_sigma)^b.", true},
     {"separation_slope", "C in sigma = C (phi - phi_c)/phi_c, the separation parameter.", true},
+    {"shear_coefficient",
+     "c of the beta-scaling equation sigma - c (rate t)^2 + lambda G^2 = d/dt int GG; of the "
+     "theories, in the isotropically sheared model of one species.",
+     true},
 };
 
 static Status numbers_of(const CriticalPoint *point, Numbers *numbers) {
     const Exponents *e = &point->exponents;
     double amplitude;
     TRY(beta_von_schweidler(e->lambda, &amplitude));
-    *numbers = (Numbers){
-        {point->packing_fraction, e->lambda, e->a, e->b, e->gamma, amplitude, point->slope}};
+    *numbers = (Numbers){{point->packing_fraction, e->lambda, e->a, e->b, e->gamma, amplitude,
+                          point->slope, point->shear}};
     return OK;
 }
 
@@ -93,6 +97,7 @@ static Status put_numbers(const Theory *theory, Results *results, const Numbers 
                           size_t slot) {
     for (size_t i = 0; i < NUMBERS; i++) {
         if (number_rows[i].exponent && !wants(theory, THEORY_EXPONENTS)) continue;
+        if (isnan(numbers->value[i])) continue; // a mixture has no coefficient of shear
         TRY(put_slot(results, number_rows[i].name, number_rows[i].about, slot, numbers->value[i]));
     }
     return OK;

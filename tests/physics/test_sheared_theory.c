@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The isotropically sheared model: at rest and at small rates it is the theory at rest, a glass
-// yields, and numbers converge with the grid.
+// yields, slow flow at the transition is beta scaling, and numbers converge with the grid.
 #include "mct/sheared.h"
 
+#include "mct/beta.h"
 #include "mct/correlators.h"
+#include "mct/critical.h"
 #include "mct/forms.h"
 
 #include <check.h>
@@ -112,6 +114,63 @@ START_TEST(a_glass_yields) {
 }
 END_TEST
 
+// t0 of the critical decay, F + H (t/t0)^-a at long times, of the wave number m.
+static double critical_time(const Fluid *f, const CriticalPoint *point, size_t m) {
+    Correlators *rest = NULL;
+    const CorrelatorSettings settings = {.block = 256, .diffusion = {1}};
+    ck_assert_int_eq(correlators_create(&rest, f->grid, f->structure, &settings), OK);
+    while (correlators_time(rest) < 1e8) ck_assert_int_eq(correlators_advance(rest), OK);
+    const double g = (correlators_collective(rest)[m] - point->form[m]) / point->amplitude[m];
+    const double time = correlators_time(rest) * pow(g, 1 / point->exponents.a);
+    correlators_free(rest);
+    return time;
+}
+
+// At the transition the correlators of slow flow are the scaling function with the coefficient of
+// shear that the critical point has, up to the next order in G: nothing is fitted.
+START_TEST(slow_flow_at_the_transition_is_beta_scaling) {
+    static const double RATE = 1e-10;
+    const int dimension = 2 + _i;
+    const size_t count = 60, m = dimension == 2 ? 14 : 16; // near the peak of S
+    const double last = 25;
+    CriticalPoint *point = NULL;
+    const CriticalSearch search = {.mixture = {dimension, 1, {1}, {1}},
+                                   .closure = CLOSURE_PERCUS_YEVICK,
+                                   .count = count,
+                                   .last = last,
+                                   .low = dimension == 2 ? 0.6 : 0.45,
+                                   .high = dimension == 2 ? 0.74 : 0.57};
+    ck_assert_msg(critical_find(&point, &search) == OK, "%s", status_sentence());
+    Fluid f = fluid_new(dimension, point->packing_fraction, count, last);
+    const double t0 = critical_time(&f, point, m);
+    const BetaSettings scaling = {.lambda = point->exponents.lambda,
+                                  .shear = point->shear * pow(RATE * t0, 2),
+                                  .last = 1e12 / t0};
+    BetaFunction *beta = NULL;
+    Sheared *flow = NULL;
+    ck_assert_int_eq(beta_create(&beta, &scaling), OK);
+    ck_assert_int_eq(sheared_create(&flow, f.grid, f.structure, RATE, 256), OK);
+    double next = 1e5, least = 0;
+    for (size_t i = 0; sheared_time(flow) < 1e9;) {
+        ck_assert_int_eq(sheared_advance(flow), OK);
+        const double time = sheared_time(flow) / t0;
+        if (time * t0 < next) continue;
+        next *= 1.3;
+        while (i + 2 < beta->count && beta->time[i + 1] < time) i++;
+        const double part = (time - beta->time[i]) / (beta->time[i + 1] - beta->time[i]);
+        const double g = beta->value[i] + part * (beta->value[i + 1] - beta->value[i]);
+        const double found = (sheared_correlator(flow)[m] - point->form[m]) / point->amplitude[m];
+        ck_assert_double_eq_tol(found, g, 1.5 * g * g + 2e-3 * fabs(g) + 4e-6);
+        least = fmin(least, g);
+    }
+    ck_assert(least < -0.02);
+    sheared_free(flow);
+    beta_free(beta);
+    critical_free(point);
+    fluid_free(&f);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("sheared theory");
     TCase *tests = tcase_create("isotropically sheared model");
@@ -120,6 +179,7 @@ int main(void) {
     tcase_add_test(tests, a_fluid_is_newtonian_at_small_rates);
     tcase_add_test(tests, the_stress_converges_with_the_cutoff);
     tcase_add_test(tests, a_glass_yields);
+    tcase_add_loop_test(tests, slow_flow_at_the_transition_is_beta_scaling, 0, 2);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_ENV);

@@ -64,6 +64,7 @@ START_TEST(a_glass_has_all_that_is_asked_for) {
     ck_assert_double_eq_tol(number(results, "separation_parameter"),
                             0.01 * number(results, "separation_slope"), 1e-10);
     ck_assert_ptr_null(results_find_scalar(results, "theory", "long_time_diffusion_small"));
+    ck_assert_ptr_null(results_find_scalar(results, "theory", "shear_coefficient")); // a mixture
     ck_assert_double_eq(number(results, "is_glass"), 1);
     const double a = number(results, "exponent_a"), b = number(results, "exponent_b");
     ck_assert_double_eq_tol(number(results, "exponent_gamma"), 1 / (2 * a) + 1 / (2 * b), 1e-12);
@@ -158,7 +159,7 @@ START_TEST(a_fluid_diffuses_in_the_end) {
 END_TEST
 
 START_TEST(a_glass_has_a_flow_curve_and_a_maximum_before_it) {
-    TheoryPlan plan = plan_of(1u << THEORY_FLOW_CURVE);
+    TheoryPlan plan = plan_of(1u << THEORY_FLOW_CURVE | 1u << THEORY_EXPONENTS);
     plan.species_count = 1;
     plan.species[0].fraction = 1;
     plan.packing_fraction = 0.53;
@@ -166,6 +167,7 @@ START_TEST(a_glass_has_a_flow_curve_and_a_maximum_before_it) {
     plan.last_rate = 1;
     plan.rates_per_decade = 1;
     Results *results = run(&plan);
+    ck_assert(number(results, "shear_coefficient") > 0);
     const ResultSeries *flow = series(results, "flow_curve");
     const ResultSeries *peak = series(results, "flow_curve_peak");
     ck_assert_uint_eq(flow->size, 5);
