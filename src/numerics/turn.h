@@ -18,8 +18,13 @@ static const double TURN_PI = 3.14159265358979323846;
 
 // Eight numbers in a fixed order.
 KERNEL double lanes_sum(const Lanes *v) {
-    const Lanes x = *v;
-    return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
+    typedef double Half __attribute__((vector_size(LANES / 2 * sizeof(double))));
+    const union {
+        Lanes all;
+        Half half[2];
+    } x = {.all = *v};
+    const Half y = x.half[0] + x.half[1];
+    return (y[0] + y[2]) + (y[1] + y[3]);
 }
 
 // sin(x)/x and cos(x) in powers of x^2.

@@ -16,7 +16,7 @@ typedef struct Phase {
 } Phase;
 
 KERNEL Phase phase_of(const PowerTable *table, int32_t n) {
-    const size_t row = (size_t)(n < 0 ? -n : n) * MODES_BLOCK;
+    const size_t row = (size_t)table->row[n < 0 ? -n : n] * MODES_BLOCK;
     return (Phase){.cosine = (const Lanes *)(table->cosine + row),
                    .sine = (const Lanes *)(table->sine + row),
                    .sign = n < 0 ? -1 : 1};
@@ -70,21 +70,54 @@ KERNEL void density_block_3d(const DensityModes *modes, double *real, double *im
     }
 }
 
-// Powers 0 to `most` of exp(2 pi i x/L), by recurrence; of an empty column all are zero.
-KERNEL void fill_table(const PowerTable *table) {
-    for (size_t lane = 0; lane < MODES_BLOCK; lane += LANES) {
-        Lanes *cosine = (Lanes *)(table->cosine + lane), *sine = (Lanes *)(table->sine + lane);
-        const Lanes present = *(const Lanes *)(table->present + lane);
-        Lanes turn_c, turn_s, c = present, s = 0 * present;
-        turn_cosine_sine((const Lanes *)(table->turns + lane), &turn_c, &turn_s);
-        for (int32_t n = 0; n <= table->most; n++) {
-            cosine[n * LANE_ROWS] = c;
-            sine[n * LANE_ROWS] = s;
-            const Lanes turned = c * turn_c - s * turn_s;
-            s = c * turn_s + s * turn_c;
-            c = turned;
+// Eight particles, and the power that they have come to.
+typedef struct Column {
+    Lanes turn_c, turn_s, c, s;
+} Column;
+
+// Of an empty column all powers are zero.
+KERNEL void column_begin(Column *column, const PowerTable *table, int k) {
+    turn_cosine_sine((const Lanes *)table->turns + k, &column->turn_c, &column->turn_s);
+    column->c = ((const Lanes *)table->present)[k];
+    column->s = 0 * column->c;
+}
+
+KERNEL void column_keep(const Column *column, const PowerTable *table, size_t at) {
+    ((Lanes *)table->cosine)[at] = column->c;
+    ((Lanes *)table->sine)[at] = column->s;
+}
+
+KERNEL void column_turn(Column *column) {
+    const Lanes turned = column->c * column->turn_c - column->s * column->turn_s;
+    column->s = column->c * column->turn_s + column->s * column->turn_c;
+    column->c = turned;
+}
+
+// Powers 0 to `most` of exp(2 pi i x/L) by recurrence. A power waits for the one before, so that
+// four columns go side by side; by name, since compilers keep an array of them in memory.
+KERNEL void fill_columns(const PowerTable *table, int k) {
+    Column a, b, c, d;
+    column_begin(&a, table, k);
+    column_begin(&b, table, k + 1);
+    column_begin(&c, table, k + 2);
+    column_begin(&d, table, k + 3);
+    for (int32_t n = 0; n <= table->most; n++) {
+        if (table->row[n] != NO_POWER) {
+            const size_t at = (size_t)table->row[n] * LANE_ROWS + (size_t)k;
+            column_keep(&a, table, at);
+            column_keep(&b, table, at + 1);
+            column_keep(&c, table, at + 2);
+            column_keep(&d, table, at + 3);
         }
+        column_turn(&a);
+        column_turn(&b);
+        column_turn(&c);
+        column_turn(&d);
     }
+}
+
+KERNEL void fill_table(const PowerTable *table) {
+    for (int k = 0; k < LANE_ROWS; k += 4) fill_columns(table, k);
 }
 
 KERNEL void density_block(const DensityModes *modes, double *real, double *imaginary) {

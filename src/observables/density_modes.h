@@ -17,23 +17,32 @@ typedef struct LatticeVector {
 
 void wave_vector_of(const Box *box, const LatticeVector *vector, double q[3]); // in 1/d
 
+enum { NO_POWER = -1 };
+
 // Particles at a time: their powers of exp(2 pi i x/L) lie in `table` while all vectors are run.
 enum { MODES_BLOCK = 64 };
 
-// Powers 0..most of exp(2 pi i x/L) of one axis, x/L along the edge of a tilted box:
-// cosine[n][MODES_BLOCK], then sine[n][MODES_BLOCK].
+// Those of the powers 0..most of exp(2 pi i x/L) of one axis that the vectors have, x/L along the
+// edge of a tilted box: cosine[row][MODES_BLOCK], sine[row][MODES_BLOCK].
 typedef struct PowerTable {
     int32_t most;
+    int32_t *row;            // [most + 1], where a power is kept; NO_POWER
     double *turns, *present; // [MODES_BLOCK]: x/L, and 1 where there is a particle, else 0
     double *cosine, *sine;
 } PowerTable;
 
-typedef struct DensityModes {
+typedef struct DensityModes DensityModes;
+
+// Adds the particles that lie in the tables.
+typedef void DensityBlock(const DensityModes *modes, double *real, double *imaginary);
+
+struct DensityModes {
     int dimension;
     size_t count;
     const LatticeVector *vectors; // sorted by n[0], then n[1]: neighbours share products
     PowerTable table[3];
-} DensityModes;
+    DensityBlock *block; // for this processor
+};
 
 // Borrows the vectors; n[0] >= 0 in each.
 Status density_modes_create(DensityModes **out, int dimension, const LatticeVector *vectors,
@@ -45,7 +54,4 @@ size_t density_modes_memory(const int32_t most[3], int dimension);
 void density_modes_add(DensityModes *modes, const Box *box, double *const position[3], size_t begin,
                        size_t end, double *real, double *imaginary);
 
-// The same for one block that lies in the tables: an instance for each instruction set.
-void density_block_portable(const DensityModes *modes, double *real, double *imaginary);
-void density_block_avx2(const DensityModes *modes, double *real, double *imaginary);
-void density_block_avx512(const DensityModes *modes, double *real, double *imaginary);
+DensityBlock density_block_portable, density_block_avx2, density_block_avx512;
