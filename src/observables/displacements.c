@@ -4,6 +4,8 @@
 
 #include "base/memory.h"
 
+#include <string.h>
+
 static size_t whole_lanes(size_t particles) {
     return (particles + LANES - 1) / LANES * LANES;
 }
@@ -47,8 +49,8 @@ void displacements_look(Displacements *d, const State *state) {
         size_t particle = 0;
         for (size_t s = 0; s < d->species_count; s++) {
             double *now = d->now + (size_t)a * d->lanes + d->begin[s];
-            for (size_t i = 0; i < d->population[s]; i++)
-                now[i] = state_unfolded(state, a, particle++) - centre[a];
+            frame_unfold(state, a, centre[a], particle, d->population[s], now);
+            particle += d->population[s];
         }
     }
     d->now[(size_t)d->dimension * d->lanes] = box_strain(&state->box);
@@ -58,17 +60,24 @@ bool displacements_ended(Displacements *d, int64_t tick, size_t k, size_t *row) 
     const double *then = history_begun(&d->history, tick, k, row);
     if (!then) return false;
     const size_t coordinates = (size_t)d->dimension * d->lanes;
-    for (size_t i = 0; i < coordinates; i++) d->moved[i] = d->now[i] - then[i];
+    for (size_t i = 0; i < coordinates; i += LANES) {
+        Lanes begun;
+        memcpy(&begun, then + i, sizeof begun); // frames lie where they will
+        *(Lanes *)(d->moved + i) = *(const Lanes *)(d->now + i) - begun;
+    }
     const double strain = d->now[coordinates] - then[coordinates], *y = d->now + d->lanes;
     for (size_t i = 0; strain != 0 && i < d->lanes; i++) d->moved[i] -= strain * y[i];
     return true;
 }
 
 void displacements_squares(const Displacements *d, double *squares) {
-    for (size_t i = 0; i < d->lanes; i++) squares[i] = d->moved[i] * d->moved[i];
+    const size_t rows = d->lanes / LANES;
+    const Lanes *moved = (const Lanes *)d->moved;
+    Lanes *sums = (Lanes *)squares;
+    for (size_t k = 0; k < rows; k++) sums[k] = moved[k] * moved[k];
     for (int a = 1; a < d->dimension; a++) {
-        const double *moved = d->moved + (size_t)a * d->lanes;
-        for (size_t i = 0; i < d->lanes; i++) squares[i] += moved[i] * moved[i];
+        moved += rows;
+        for (size_t k = 0; k < rows; k++) sums[k] += moved[k] * moved[k];
     }
 }
 

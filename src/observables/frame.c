@@ -2,6 +2,10 @@
 // From where a correlation function is seen.
 #include "observables/frame.h"
 
+#include "numerics/turn.h"
+
+#include <string.h>
+
 const char *const frame_names[] = {"box", "centre-of-mass", NULL};
 
 Status frame_check(const char *observable, int64_t frame, const Clock *clock) {
@@ -22,4 +26,28 @@ void frame_centre(int64_t frame, const State *state, double centre[3]) {
             centre[a] += state->mass[i] * state_unfolded(state, a, i);
         centre[a] /= mass;
     }
+}
+
+typedef int32_t LaneImages __attribute__((vector_size(LANES * sizeof(int32_t))));
+
+KERNEL void add_images(const int32_t *image, double edge, Lanes *place) {
+    LaneImages images;
+    memcpy(&images, image, sizeof images);
+    *place += __builtin_convertvector(images, Lanes) * edge;
+}
+
+// state_unfolded, eight particles at a time.
+void frame_unfold(const State *state, int axis, double centre, size_t first, size_t count,
+                  double *unfolded) {
+    const double displacement = box_displacement(&state->box);
+    size_t i = 0;
+    for (; i + LANES <= count; i += LANES) {
+        Lanes place;
+        memcpy(&place, state->position[axis] + first + i, sizeof place);
+        add_images(state->image[axis] + first + i, state->box.edge[axis], &place);
+        if (axis == 0) add_images(state->image[1] + first + i, displacement, &place);
+        place -= centre;
+        memcpy(unfolded + i, &place, sizeof place);
+    }
+    for (; i < count; i++) unfolded[i] = state_unfolded(state, axis, first + i) - centre;
 }

@@ -24,3 +24,7 @@ Status frame_check(const char *observable, int64_t frame, const Clock *clock);
 
 // The centre of mass of the unfolded particles; 0 in the frame of the box.
 void frame_centre(int64_t frame, const State *state, double centre[3]);
+
+// One coordinate of particles [first, first + count), unfolded and seen from `centre`.
+void frame_unfold(const State *state, int axis, double centre, size_t first, size_t count,
+                  double *unfolded);

@@ -48,6 +48,7 @@ Lags lags_of(const Clock *clock, double first, double last, int64_t per_decade, 
     }
     append(&lags, round_near((double)longest, longest < step ? within_step : lags.spacing));
     while (lags.count > 1 && lags.ticks[lags.count - 1] > clock->ticks) lags.count--;
+    for (size_t k = 0; k < lags.count; k++) lags.phase[k] = lags.ticks[k] % lags.spacing;
     lags.slots = (size_t)round_up(lags.ticks[lags.count - 1], lags.spacing) / lags.spacing;
     return lags;
 }
@@ -68,12 +69,11 @@ static int64_t next_of_waits(const Lags *lags, int64_t after) {
 
 static int64_t next_of_many(const Lags *lags, int64_t after) {
     if (after < 0) return 0;
-    int64_t next = after - after % lags->spacing + lags->spacing;
+    const int64_t origin = after - after % lags->spacing; // the last
+    int64_t next = origin + lags->spacing;
     for (size_t k = 0; k < lags->count && lags->ticks[k] < next; k++) {
-        const int64_t since = after - lags->ticks[k];
-        const int64_t end =
-            since < 0 ? lags->ticks[k] : after - since % lags->spacing + lags->spacing;
-        if (end < next) next = end;
+        const int64_t end = origin + lags->phase[k]; // of the lag from the origin or an earlier one
+        if (end > after && end < next && end >= lags->ticks[k]) next = end;
     }
     return next;
 }

@@ -19,6 +19,7 @@ typedef struct Lags {
     size_t slots;    // origins that are kept
     size_t count;
     int64_t ticks[LAGS_MOST]; // ascending
+    int64_t phase[LAGS_MOST]; // ticks beyond whole spacings
     size_t waits;             // waiting times; 0: the origins are evenly spaced
     int64_t wait[OPTION_LIST_SIZE];
     bool by_strain; // they were given as strains

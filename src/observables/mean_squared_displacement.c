@@ -124,8 +124,7 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
     frame_centre(msd->frame, state, centre);
     for (int a = 0; a < msd->dimension; a++) {
         double *now = msd->now + (size_t)a * msd->particles;
-        for (size_t i = 0; i < msd->particles; i++)
-            now[i] = state_unfolded(state, a, i) - centre[a];
+        frame_unfold(state, a, centre[a], 0, msd->particles, now);
     }
     for (size_t k = 0; k < msd->history.lags.count; k++) {
         size_t row = 0;
