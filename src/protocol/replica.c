@@ -20,6 +20,7 @@ struct Replica {
     Propagator *propagator; // NULL between stages
     Clock clock;            // of the stage
     size_t stage;           // plan->stage_count when finished
+    Box boxes[STAGES_MOST]; // in which each stage began: observers are made for it
     int64_t tick;           // in the stage
     Tally tally;            // of the stage
     Tally finished;         // of the stages before
@@ -47,11 +48,14 @@ static Status check_health(Replica *replica) {
 static Status make_observers(Replica *replica, size_t stage) {
     const Stage *plan = &replica->plan->stages[stage];
     const Clock clock = plan_clock(replica->plan, stage);
+    const Box now = replica->state->box; // when loaded, it may have been sheared since
+    replica->state->box = replica->boxes[stage];
     for (size_t k = 0; k < plan->observation_count; k++) {
         const Observation *observation = &plan->observations[k];
         TRY(observation->kind->create(&replica->observers[stage][k], &observation->settings,
                                       replica->state, &clock));
     }
+    replica->state->box = now;
     return OK;
 }
 
@@ -127,6 +131,7 @@ static Status begin_stage(Replica *replica) {
     TRY(make_propagator(replica));
     Propagator *propagator = replica->propagator;
     if (propagator->kind->prepare) TRY(propagator->kind->prepare(propagator));
+    replica->boxes[replica->stage] = replica->state->box;
     TRY(make_observers(replica, replica->stage));
     replica->frames_due += records_its_start(replica->plan, replica->stage);
     return show_observers(replica, -1);
@@ -271,7 +276,7 @@ bool replica_can_save(const Replica *replica) {
     return !replica->propagator || replica->tick % replica->clock.ticks_per_step == 0;
 }
 
-static const uint64_t REPLICA_TAG = 0x5245504c30303032; // "REPL0002"
+static const uint64_t REPLICA_TAG = 0x5245504c30303033; // "REPL0003"
 
 static void archive_observers(Replica *replica, Archive *archive, size_t stages) {
     for (size_t s = 0; s < stages; s++) {
@@ -281,6 +286,12 @@ static void archive_observers(Replica *replica, Archive *archive, size_t stages)
             observer->kind->archive(observer, archive);
         }
     }
+}
+
+// And the boxes in which the stages so far began.
+static void archive_state(Replica *replica, Archive *archive, size_t stages) {
+    state_archive(replica->state, archive);
+    for (size_t s = 0; s < stages; s++) box_archive(&replica->boxes[s], archive);
 }
 
 static void archive_propagator(Replica *replica, Archive *archive) {
@@ -319,7 +330,7 @@ void replica_save(Replica *replica, Archive *archive) {
     ASSERT(replica_can_save(replica));
     uint64_t stage = replica->stage, begun = replica->propagator != NULL;
     archive_place(replica, archive, &stage, &begun);
-    state_archive(replica->state, archive);
+    archive_state(replica, archive, replica->stage + begun);
     archive_observers(replica, archive, replica->stage + begun);
     archive_propagator(replica, archive);
 }
@@ -328,7 +339,8 @@ static Status load(Replica *replica, Archive *archive) {
     uint64_t stage = 0, begun = 0;
     archive_place(replica, archive, &stage, &begun);
     TRY(state_create(&replica->state, &replica->plan->system));
-    state_archive(replica->state, archive);
+    for (size_t s = 0; s < STAGES_MOST; s++) replica->boxes[s] = replica->state->box;
+    archive_state(replica, archive, (size_t)(stage + begun));
     TRY(archive_status(archive, false));
     replica->stage = (size_t)stage;
     for (size_t s = 0; s < stage + begun; s++) TRY(make_observers(replica, s));

@@ -117,8 +117,18 @@ static Status show(Replay *replay, int64_t before, int64_t tick) {
     return OK;
 }
 
+// Observers are made for the box in which the stage began, which a flow before it may have left
+// leaning; at rest it still does in the first frame.
+static Status begin(Replay *replay) {
+    if (replay->frames.start >= 0)
+        TRY(load_frame(replay, 0));
+    else if (!replay->clock.drive)
+        TRY(load_frame(replay, replay->frames.every));
+    return make_observers(replay);
+}
+
 static Status go_through(Replay *replay, Results *results, size_t replica) {
-    TRY(make_observers(replay));
+    TRY(begin(replay));
     int64_t before = -1, tick;
     while ((tick = next_tick(replay, before)) != INT64_MAX) {
         TRY(load_frame(replay, tick));

@@ -57,7 +57,8 @@ numbers run/analysis > stored.json
 grep -q collective_scattering_normalised live.json || fail "the run has no correlators"
 cmp live.json stored.json || fail "the same configurations gave other numbers"
 
-# Under shear too: wave vectors and displacements that go with the flow, and where pairs touch.
+# Under shear too: wave vectors and displacements that go with the flow, and where pairs touch; and at rest
+# in the box that a flow has left leaning.
 cat > sheared.yaml << 'END_OF_FILE'
 system:
   dimension: 2
@@ -76,6 +77,9 @@ protocol:
       - planar_structure_factor
       - angular_pair_distribution
       - contact_stress
+  - stage: rest
+    time: 0.05
+    observe: [structure_factor, collective_scattering: {times: {first: 0.00125}}]
 ensemble: {replicas: 2}
 output: {trajectory: {every: 0.00125}}
 END_OF_FILE

@@ -2,12 +2,10 @@
 // A replica's way through its stages, with a propagator and an observer of our own that can be
 // predicted: particles drift by one ten-thousandth of an edge per tick. So the seams themselves are
 // tested.
+#include "observe.h"
+
 #include "base/memory.h"
 #include "protocol/replica.h"
-
-#include <check.h>
-#include <math.h>
-#include <string.h>
 
 // --- a propagator whose cost per tick, and so the length of a slice, can be chosen
 
@@ -311,6 +309,86 @@ START_TEST(a_replica_saved_and_loaded_anywhere_ends_in_the_same_bits) {
 }
 END_TEST
 
+// At rest, sheared by less and by a whole edge of the box, and at rest in the box that leans.
+static Plan *sheared_between_rests(void) {
+    static const double rates[3] = {0, 0.65, 0};
+    static const char *const names[3] = {"before", "sheared", "after"};
+    Plan *plan = two_stages(1e-9);
+    plan->system.particles = 40;
+    plan->output.trajectory_every = 0;
+    plan->stage_count = 3;
+    for (size_t s = 0; s < 3; s++) {
+        Stage *stage = &plan->stages[s];
+        *stage = (Stage){.time = 1, .observation_count = 2};
+        strcpy(stage->name, names[s]);
+        stage->dynamics = (Dynamics){.kind = &propagator_event_driven,
+                                     .settings = settings_of(&propagator_event_driven.options)};
+        set_number(&stage->dynamics.settings, &propagator_event_driven.options,
+                   "thermostat_interval", 0.05);
+        stage->drive.flow.rate = rates[s];
+        const ObservableKind *kinds[2][2] = {
+            {&observable_structure_factor, &observable_collective_scattering},
+            {&observable_planar_structure_factor, &observable_advected_scattering}};
+        for (size_t k = 0; k < 2; k++) {
+            const ObservableKind *kind = kinds[s == 1][k];
+            stage->observations[k] = (Observation){kind, settings_of(&kind->options)};
+        }
+    }
+    return plan;
+}
+
+static Results *results_of(const Replica *replica) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(replica_write(replica, results), OK);
+    return results;
+}
+
+static void assert_same_series(const Results *a, const Results *b) {
+    ck_assert_uint_eq(a->series_count, b->series_count);
+    for (size_t i = 0; i < a->series_count; i++) {
+        const ResultSeries *one = &a->series[i], *other = &b->series[i];
+        ck_assert_uint_eq(one->size, other->size);
+        ck_assert_mem_eq(one->values, other->values, one->size * sizeof(double));
+        for (size_t k = 0; k < one->axes; k++) {
+            if (!one->axis[k].values) continue;
+            ck_assert_mem_eq(one->axis[k].values, other->axis[k].values,
+                             one->axis[k].count * sizeof(double));
+        }
+    }
+}
+
+// Wave vectors are those of the box in which a stage began, also of one that is over.
+START_TEST(what_a_sheared_box_has_seen_is_loaded_as_it_was) {
+    Plan *plan = sheared_between_rests();
+    ck_assert_int_eq(plan_check(plan), OK);
+    Replica *replica = fresh(plan);
+    while (!replica_finished(replica)) ck_assert_int_eq(replica_advance(replica), OK);
+    Results *expected = results_of(replica);
+    replica_free(replica);
+    replica = fresh(plan);
+    size_t loads[4] = {0};
+    while (!replica_finished(replica)) {
+        ck_assert_int_eq(replica_advance(replica), OK);
+        if (!replica_can_save(replica)) continue;
+        Archive saved = archive_writer();
+        replica_save(replica, &saved);
+        replica_free(replica);
+        Archive reader = archive_reader(saved.bytes, saved.size);
+        ck_assert_msg(replica_load(&replica, plan, 0, &reader) == OK, "%s", status_sentence());
+        archive_free(&saved);
+        loads[replica_stage(replica)]++;
+    }
+    for (int s = 0; s < 3; s++) ck_assert_uint_gt(loads[s], 10);
+    Results *found = results_of(replica);
+    assert_same_series(expected, found);
+    results_free(expected);
+    results_free(found);
+    replica_free(replica);
+    memory_free(plan);
+}
+END_TEST
+
 START_TEST(torn_and_spoiled_saves_are_refused) {
     Plan *plan = two_stages(3e-4);
     Replica *replica = fresh(plan), *loaded = NULL;
@@ -377,6 +455,7 @@ int main(void) {
     tcase_add_test(all, one_stage_alone_can_be_recorded_from_its_start);
     tcase_add_test(all, how_time_is_sliced_changes_no_bit);
     tcase_add_test(all, a_replica_saved_and_loaded_anywhere_ends_in_the_same_bits);
+    tcase_add_test(all, what_a_sheared_box_has_seen_is_loaded_as_it_was);
     tcase_add_test(all, torn_and_spoiled_saves_are_refused);
     tcase_add_test(all, a_stage_lasts_a_whole_number_of_steps);
     tcase_add_test(all, what_cannot_be_is_said);
