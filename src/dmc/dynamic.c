@@ -220,14 +220,14 @@ static double seconds(const Settings *settings, const System *system) {
 // see it: the friction is then off by so much times the work of a trial over kT, of soft spheres
 // at packing fractions of 0.2 to 0.5 (gallery: tracer-clocks, friction-curves).
 static void describe_crowd(const Pull *pull, double work, Text *lines) {
-    static const double TOO_LARGE = 0.13, TOO_SMALL = 0.08, WORTH_SAYING = 0.05, STRONG = 20;
+    static const double OFF = 0.1, WORTH_SAYING = 0.05, STRONG = 20;
     const bool drifted = pull->clock == PULL_DRIFTED;
-    const double off = (drifted ? TOO_LARGE : TOO_SMALL) * work;
-    if (pull->clock == PULL_FIRST_ORDER || pull->peclet < STRONG || off < WORTH_SAYING) return;
+    if (pull->clock == PULL_FIRST_ORDER || pull->peclet < STRONG || OFF * work < WORTH_SAYING)
+        return;
     text_add(lines,
-             "at this step the friction of a dense bath may come out some %.0f %% too %s: a second "
-             "step and a straight line to none remove it\n",
-             100 * off, drifted ? "large" : "small");
+             "at this step the friction of a dense bath may come out some %.0f %% too %s: the "
+             "error of clock: %s has the other sign\n",
+             100 * OFF * work, drifted ? "large" : "small", drifted ? "exact-force" : "drifted");
 }
 
 static void describe_pull(const Dynamic *set, const System *system, const Pull *pull, Text *lines) {

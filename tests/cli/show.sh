@@ -96,8 +96,8 @@ of_step() { # WORDS SETTINGS...
 }
 not_of_step() { ! of_step "$@"; }
 exact=protocol.pulled.pull.clock=exact-force
-expect "check says how far a drifted trial is off" of_step 'some 13 % too large' --set dynamics.step=0.01
-expect "and one of exact mean" of_step 'some 16 % too small' --set dynamics.step=0.02 --set $exact
+expect "check says how far a drifted trial is off" of_step 'some 10 % too large' --set dynamics.step=0.01
+expect "and one of exact mean" of_step 'some 8 % too small' --set dynamics.step=0.008 --set $exact
 expect "of a short one it says nothing" not_of_step '% too' --set dynamics.step=0.003 --set $exact
 expect "nor of a weak force" not_of_step '% too' --set dynamics.step=0.04 --set $exact \
     --set protocol.pulled.pull.peclet=15
