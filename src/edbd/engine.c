@@ -25,7 +25,7 @@ static const double FLIGHT_MOST = 0.05;  // thermal flight in a window, in d
 static const int64_t PARTICLES_MOST = 1 << 28;
 // Particles, by measurement: what fewer of them need is near in the cache anyway.
 static const size_t FETCHES_FROM = 32768;
-static const double BUCKETS = 25; // per particle in a time of d sqrt(m/kT): one per event, about
+static const double BUCKETS = 200; // per particle in a time of d sqrt(m/kT): few events share one
 
 void *engine_room_take(Room *room, size_t bytes) {
     // Arrays that begin at the same place of a page would contend for the same lines of the cache.
@@ -59,6 +59,7 @@ static void take_room(Engine *engine) {
     TAKE_ARRAY(room, engine->thermal, slots);
     TAKE_ARRAY(room, engine->stamp, slots);
     TAKE_ARRAY(room, engine->bucket, engine->buckets);
+    TAKE_ARRAY(room, engine->occupied, engine->buckets / BITS);
     for (int a = 0; a < engine->dimension; a++) {
         TAKE_ARRAY(room, engine->normals[a], slots);
         TAKE_ARRAY(room, engine->snapshot.image[a], engine->count);

@@ -13,6 +13,7 @@ enum {
     ROW_3D = 8,     // x y z 0, likewise
     BLOCK = 16,     // slots and the half list are padded to a multiple of this,
     HALF_BLOCK = 8, // the neighbours of each particle to one of this
+    BITS = 64,      // of buckets in a word
 };
 static const uint32_t NO_EVENT = UINT32_MAX;
 
@@ -154,8 +155,9 @@ struct Engine {
 
     Event *events; // [event_capacity]
     uint32_t event_capacity, events_used;
-    uint32_t *bucket;                         // [buckets] first event of each slice of the window
-    uint32_t buckets;                         // a power of two
+    uint32_t *bucket;   // [buckets] first event of each slice of the window that has any
+    uint64_t *occupied; // [buckets / BITS] which have
+    uint32_t buckets;   // a power of two
     double buckets_per_time, half_per_window; // 1/(2 window)
 
     int64_t careful; // windows still to be done with a new list each

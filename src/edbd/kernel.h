@@ -15,56 +15,76 @@
 
 static const uint32_t COLLISIONS_MOST = 1000; // of one particle in one window: it hangs
 static const double CONTACT_DEPTH = 1e-12;    // deeper overlaps at a collision are counted
-static const uint32_t FETCH_STEP = 4;         // buckets between the steps of fetching ahead
+static const uint32_t FETCH_STEP = 32;        // buckets between the steps of fetching ahead
+static const uint32_t MEMBER = 1u << 24;      // codes of neighbours of one collision of a batch
 
 // Diameters at time s of the window: scale(s) = scale + rate s.
 typedef struct Growth {
     double scale, rate;
 } Growth;
 
-// The gap of a pair as time goes on: r^2 - contact^2 = c + 2 b t + a t^2.
+// Four particles: virtual origins and velocities.
+typedef struct Movers {
+    Quad place[3], velocity[3];
+} Movers;
+
+// The gaps of four pairs as time goes on: r^2 - contact^2 = c + 2 b t + a t^2.
 typedef struct Gap {
-    double a, b, c;
+    Quad a, b, c;
 } Gap;
 
-KERNEL double nearest(double r, double edge) {
-    return r > edge / 2 ? r - edge : r < -edge / 2 ? r + edge : r;
+KERNEL Movers movers_at(const int dimension, const Engine *engine, const uint32_t slot[4]) {
+    Movers movers;
+    for (int a = 0; a < dimension; a++) {
+        movers.place[a] = quads_gather(engine->now.place[a], slot);
+        movers.velocity[a] = quads_gather(engine->now.velocity[a], slot);
+    }
+    return movers;
 }
 
-// From one particle to the nearest image of another: of their virtual origins, and of velocities.
+// From particles to the nearest images of others: of their virtual origins, and of velocities.
 // Of images across the edges of y, those of a sheared box move (Weysser, thesis, eqs. 2.12 to 2.14,
 // with the whole strain in place of that since the last step).
-KERNEL void separate(const int dimension, const int flight, const Engine *engine, uint32_t i,
-                     uint32_t j, double r[3], double v[3]) {
-    const Motion *now = &engine->now;
+KERNEL void separate(const int dimension, const int flight, const Engine *engine, const Movers *i,
+                     const Movers *j, Quad r[3], Quad v[3]) {
     for (int a = 0; a < dimension; a++) {
-        r[a] = now->place[a][i] - now->place[a][j];
-        v[a] = now->velocity[a][i] - now->velocity[a][j];
+        r[a] = i->place[a] - j->place[a];
+        v[a] = i->velocity[a] - j->velocity[a];
     }
     if (flight == SHEARED) {
         const double half = engine->edge[1] / 2;
-        if (__builtin_expect((r[1] > half) | (r[1] < -half), 0)) {
-            r[0] -= r[1] > 0 ? engine->offset : -engine->offset;
-            v[0] -= r[1] > 0 ? engine->image_velocity : -engine->image_velocity;
-        }
+        const QuadBits above = r[1] > half, below = r[1] < -half;
+        r[0] = quads_choose(above, r[0] - engine->offset,
+                            quads_choose(below, r[0] + engine->offset, r[0]));
+        v[0] = quads_choose(above, v[0] - engine->image_velocity,
+                            quads_choose(below, v[0] + engine->image_velocity, v[0]));
     }
-    for (int a = 0; a < dimension; a++) r[a] = nearest(r[a], engine->edge[a]);
+    for (int a = 0; a < dimension; a++) {
+        const double edge = engine->edge[a];
+        r[a] = quads_choose(r[a] > edge / 2, r[a] - edge,
+                            quads_choose(r[a] < -edge / 2, r[a] + edge, r[a]));
+    }
 }
 
-// From time s on.
-KERNEL Gap gap_of(const int dimension, const int flight, const Engine *engine, uint32_t i,
-                  uint32_t j, double s, Growth growth) {
-    double r[3], v[3], r2 = 0, rv = 0, v2 = 0;
-    separate(dimension, flight, engine, i, j, r, v);
+KERNEL Quad contact_of(const Engine *engine, const uint32_t i[4], const uint32_t j[4]) {
+    return quads_gather(engine->radius, i) + quads_gather(engine->radius, j);
+}
+
+// From times s on.
+KERNEL Gap gap_of(const int dimension, const int flight, const Engine *engine, const uint32_t i[4],
+                  const uint32_t j[4], Quad s, Growth growth) {
+    const Movers first = movers_at(dimension, engine, i), second = movers_at(dimension, engine, j);
+    Quad r[3], v[3], r2 = {0}, rv = {0}, v2 = {0};
+    separate(dimension, flight, engine, &first, &second, r, v);
     for (int a = 0; a < dimension; a++) {
-        const double x = r[a] + v[a] * s;
+        const Quad x = r[a] + v[a] * s;
         r2 = a == 0 ? x * x : r2 + x * x;
         rv = a == 0 ? x * v[a] : rv + x * v[a];
         v2 = a == 0 ? v[a] * v[a] : v2 + v[a] * v[a];
     }
-    const double contact = engine->radius[i] + engine->radius[j], contact2 = contact * contact;
+    const Quad contact = contact_of(engine, i, j), contact2 = contact * contact;
     if (flight != GROWING) return (Gap){.a = v2, .b = rv, .c = r2 - contact2};
-    const double scale = growth.scale + growth.rate * s;
+    const Quad scale = growth.scale + growth.rate * s;
     return (Gap){.a = v2 - contact2 * (growth.rate * growth.rate),
                  .b = rv - contact2 * (scale * growth.rate),
                  .c = r2 - contact2 * (scale * scale)};
@@ -73,20 +93,30 @@ KERNEL Gap gap_of(const int dimension, const int flight, const Engine *engine, u
 // Does it close within `left`? Pairs that approach, and either overlap by then or have passed
 // through a real contact before. A pair that overlaps already and approaches meets now; one that
 // overlaps and recedes is left to do so. With growth a pair may also meet without approaching.
-KERNEL int gap_closes(const int flight, Gap gap, double left) {
-    const double end = gap.b + gap.a * left;
-    const int approaching = gap.b < 0;
-    const int overlaps = gap.c + left * (gap.b + end) < 0;
-    const int turned = (0 < end) & (gap.a * gap.c < gap.b * gap.b);
+KERNEL QuadBits gap_closes(const int flight, const Gap *gap, Quad left) {
+    const Quad end = gap->b + gap->a * left;
+    const QuadBits approaching = gap->b < 0;
+    const QuadBits overlaps = gap->c + left * (gap->b + end) < 0;
+    const QuadBits turned = (0 < end) & (gap->a * gap->c < gap->b * gap->b);
     if (flight != GROWING) return approaching & (overlaps | turned);
-    return (approaching | (0 < gap.c)) & (overlaps | (turned & approaching));
+    return (approaching | (0 < gap->c)) & (overlaps | (turned & approaching));
 }
 
 // How long until a closing gap is closed; this form of the root does not cancel.
-KERNEL double gap_time(Gap gap) {
-    const double square = gap.b * gap.b - gap.a * gap.c;
-    const double time = gap.c / (sqrt(square > 0 ? square : 0) - gap.b);
-    return time > 0 ? time : 0;
+KERNEL Quad gap_time(const Gap *gap) {
+    const Quad zero = {0}, square = gap->b * gap->b - gap->a * gap->c;
+    const Quad root = quads_sqrt(quads_choose(square > 0, square, zero));
+    const Quad time = gap->c / (root - gap->b);
+    return quads_choose(time > 0, time, zero);
+}
+
+// When do four pairs meet, from times s on? INFINITY: not in this window.
+KERNEL Quad meeting_times(const int dimension, const int flight, const Engine *engine,
+                          const uint32_t i[4], const uint32_t j[4], Quad s, Growth growth) {
+    const Gap gap = gap_of(dimension, flight, engine, i, j, s, growth);
+    const QuadBits closes = gap_closes(flight, &gap, engine->settings.window - s);
+    const Quad never = {INFINITY, INFINITY, INFINITY, INFINITY};
+    return quads_choose(closes, s + gap_time(&gap), never);
 }
 
 KERNEL uint32_t bucket_at(const Engine *engine, double time) {
@@ -95,11 +125,14 @@ KERNEL uint32_t bucket_at(const Engine *engine, double time) {
     return slice < last ? (uint32_t)slice : last;
 }
 
+// Buckets that hold somebody have their bit set; the heads of others mean nothing.
 KERNEL void event_link(Engine *engine, uint32_t number) {
     Event *event = &engine->events[number];
-    uint32_t *bucket = &engine->bucket[bucket_at(engine, event->time)];
-    event->next = *bucket;
-    *bucket = number;
+    const uint32_t b = bucket_at(engine, event->time);
+    const uint64_t there = engine->occupied[b / BITS];
+    event->next = engine->bucket[b] | (there >> b % BITS & 1 ? 0 : NO_EVENT);
+    engine->occupied[b / BITS] = there | (uint64_t)1 << b % BITS;
+    engine->bucket[b] = number;
 }
 
 KERNEL void event_put(Engine *engine, double time, uint32_t first, uint32_t second) {
@@ -119,20 +152,25 @@ KERNEL void event_drop(Engine *engine, uint32_t *link) {
     *link = engine->events[*link].next;
 }
 
-// A pair becomes an event if it meets between time s and the end of the window: when, or never.
-KERNEL double predict(const int dimension, const int flight, Engine *engine, uint32_t i, uint32_t j,
-                      double s, Growth growth) {
-    const Gap gap = gap_of(dimension, flight, engine, i, j, s, growth);
-    if (!gap_closes(flight, gap, engine->settings.window - s)) return INFINITY;
-    const double time = s + gap_time(gap);
-    event_put(engine, time, i, j);
-    return time;
+// Pairs become events if they meet in the window.
+KERNEL void predict_hits(const int dimension, const int flight, Engine *engine, Growth growth,
+                         size_t hits) {
+    const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D;
+    uint32_t *const first = engine->list.hit_first, *const second = engine->list.hit_second;
+    for (size_t h = hits; h < hits + 4; h++) first[h] = second[h] = 0; // lanes nobody looks at
+    for (size_t h = 0; h < hits; h += 4) {
+        uint32_t i[4], j[4];
+        for (size_t k = 0; k < 4; k++) i[k] = first[h + k] / row, j[k] = second[h + k] / row;
+        const Quad time = meeting_times(dimension, flight, engine, i, j, (Quad){0}, growth);
+        for (size_t k = 0; k < 4 && h + k < hits; k++) {
+            if (time[k] < INFINITY) event_put(engine, time[k], i[k], j[k]);
+        }
+    }
 }
 
 KERNEL void predict_all(const int dimension, const int flight, Engine *engine, Growth growth,
                         const Sieve *sieve) {
     const NeighbourList *list = &engine->list;
-    const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D;
     size_t hits = 0;
     for (size_t p = 0; p < list->near; p += WIDE) {
         const uint32_t *first = list->near_first + p, *second = list->near_second + p;
@@ -144,25 +182,8 @@ KERNEL void predict_all(const int dimension, const int flight, Engine *engine, G
         wides_pack_u32(list->hit_second + hits, bits, second);
         hits += (unsigned)__builtin_popcount(bits);
     }
-    for (size_t h = 0; h < hits; h++) {
-        predict(dimension, flight, engine, list->hit_first[h] / row, list->hit_second[h] / row, 0,
-                growth);
-    }
+    predict_hits(dimension, flight, engine, growth, hits);
 }
-
-// The displacement of a particle from its anchor, which goes with the flow: at a place on its way,
-// at time t.
-KERNEL void watch(const int dimension, const int flight, Engine *engine, uint32_t slot,
-                  const double place[3], double t) {
-    double d2 = 0;
-    for (int a = 0; a < dimension; a++) {
-        double d = place[a] - engine->list.anchor[a][slot];
-        if (flight == SHEARED && a == 0) d -= (engine->list.strain + engine->rate * t) * place[1];
-        d2 += d * d;
-    }
-    if (d2 > engine->list.farthest2) engine->list.farthest2 = d2;
-}
-
 KERNEL void record(const Engine *engine, const Event *event) {
     CollisionLog *log = engine->log;
     const uint32_t p = engine->id[event->first], q = engine->id[event->second];
@@ -181,20 +202,6 @@ KERNEL void count_overlap(Engine *engine, double r2, double contact2) {
     const double depth = 1 - sqrt(r2 / contact2);
     engine->tally.corrected++;
     if (depth > engine->tally.deepest_contact) engine->tally.deepest_contact = depth;
-}
-
-// A particle changes its velocity by k r at time t, and its virtual origin to match.
-KERNEL void kick(const int dimension, const Engine *engine, uint32_t slot, double k,
-                 const double r[3], double t) {
-    double place[3], velocity[3];
-    for (int a = 0; a < dimension; a++) {
-        const double change = k * r[a];
-        place[a] = engine->now.place[a][slot] - change * t;
-        velocity[a] = engine->now.velocity[a][slot] + change;
-        engine->now.place[a][slot] = place[a];
-        engine->now.velocity[a][slot] = velocity[a];
-    }
-    sketch_one(dimension, engine, slot, place, velocity);
 }
 
 // Sums of r_a r_c over collisions, weighted by momentum: xx xy yy in 2D; xx xy xz yy, yz zz in 3D.
@@ -230,74 +237,116 @@ KERNEL void exchange_close(const int dimension, const Exchange *sums, Tally *tal
     sum[2][2] = sums->high[1];
 }
 
-// A collision that was carried out: what it changed, and whom its partners may meet after it.
-typedef struct Outcome {
-    uint32_t number; // of the event, of which this is a copy
-    Event event;
-    double place[2][3], velocity[2][3]; // before it
-    double r[3], momentum;              // between the partners, exchanged along r
-    double r2, contact2;
-    uint32_t *may_meet; // a bit for each neighbour, in blocks of those of both
-    uint32_t blocks;    // 0: nobody is left to be looked at
-} Outcome;
+// The next few collisions, which are carried out side by side: nobody takes part in two of them.
+// The first stands; the others do as long as nothing that follows from those before them comes
+// between.
+enum { BATCH = 4 };
+typedef struct Batch {
+    uint32_t count;
+    uint32_t number[BATCH], bucket[BATCH]; // of the events
+    uint32_t slot[2][BATCH];               // partners
+    Quad time;
+    Movers before[2], after[2];
+    FourFloats row[2][BATCH][2]; // sketches after it, one behind the other in 2D
+    Quad r[3], momentum;         // between the partners, exchanged along r
+    Quad r2, contact2;
+    size_t hits; // of those whom they may meet after it
+} Batch;
 
-KERNEL uint32_t partner(const Outcome *outcome, int p) {
-    return p == 0 ? outcome->event.first : outcome->event.second;
-}
-
-// How a partner comes to it, and how far it got.
-KERNEL void remember(const int dimension, const int flight, Engine *engine, Outcome *outcome,
-                     int p) {
-    const uint32_t slot = partner(outcome, p);
-    const double t = outcome->event.time;
-    double place[3];
+// The farthest displacement of partners p from their anchors, which go with the flow.
+KERNEL Quad watch(const int dimension, const int flight, const Engine *engine, const Batch *batch,
+                  int p, Quad farthest2) {
+    const Quad t = batch->time;
+    Quad place[3], away2 = {0};
     for (int a = 0; a < dimension; a++) {
-        outcome->place[p][a] = engine->now.place[a][slot];
-        outcome->velocity[p][a] = engine->now.velocity[a][slot];
-        place[a] = outcome->place[p][a] + outcome->velocity[p][a] * t;
+        place[a] = batch->before[p].place[a] + batch->before[p].velocity[a] * t;
     }
-    watch(dimension, flight, engine, slot, place, t);
+    for (int a = 0; a < dimension; a++) {
+        Quad away = place[a] - quads_gather(engine->list.anchor[a], batch->slot[p]);
+        if (flight == SHEARED && a == 0)
+            away -= (engine->list.strain + engine->rate * t) * place[1];
+        away2 = a == 0 ? away * away : away2 + away * away;
+    }
+    return quads_choose(away2 > farthest2, away2, farthest2);
 }
 
-// The elastic collision (Weysser, thesis, eq. 2.5, divided by r^2 as it must be): momentum
+// Partners p change their velocities by k r, and their virtual origins to match.
+KERNEL void kick(const int dimension, const Engine *engine, Batch *batch, int p, Quad k) {
+    const double way = 2 * engine->settings.window;
+    Quad now[4] = {{0}}, then[4] = {{0}};
+    for (int a = 0; a < dimension; a++) {
+        const Quad change = k * batch->r[a];
+        now[a] = batch->before[p].place[a] - change * batch->time;
+        batch->after[p].place[a] = now[a];
+        batch->after[p].velocity[a] = batch->before[p].velocity[a] + change;
+        then[a] = now[a] + batch->after[p].velocity[a] * way;
+    }
+    sketch_quads(dimension, now, then, batch->row[p]);
+}
+
+// The elastic collisions (Weysser, thesis, eq. 2.5, divided by r^2 as it must be): momentum
 // -2 m_i m_j/(m_i + m_j) b r/r^2 goes to i, its mirror image to j; r = r_i - r_j, b = r.v.
-KERNEL void collide(const int dimension, const int flight, Engine *engine, Growth growth,
-                    Outcome *outcome) {
-    const uint32_t slots[2] = {partner(outcome, 0), partner(outcome, 1)};
-    const double t = outcome->event.time;
-    double r[3], v[3], r2 = 0, b = 0;
-    separate(dimension, flight, engine, slots[0], slots[1], r, v);
-    for (int a = 0; a < dimension; a++) {
-        r[a] += v[a] * t;
-        r2 = a == 0 ? r[a] * r[a] : r2 + r[a] * r[a];
-        b = a == 0 ? r[a] * v[a] : b + r[a] * v[a];
-        outcome->r[a] = r[a];
-    }
-    const double scale = flight == GROWING ? growth.scale + growth.rate * t : 1;
-    const double contact = (engine->radius[slots[0]] + engine->radius[slots[1]]) * scale;
-    if (flight == GROWING) b -= contact * contact / scale * growth.rate;
-
-    const double mass[2] = {engine->mass[slots[0]], engine->mass[slots[1]]};
-    const double k = -2 * b / (r2 * (mass[0] + mass[1]));
+KERNEL void collide(const int dimension, const int flight, const Engine *engine, Growth growth,
+                    Batch *batch, Quad *farthest2) {
+    const Quad t = batch->time;
+    Quad v[3], r2 = {0}, b = {0};
     for (int p = 0; p < 2; p++) {
-        remember(dimension, flight, engine, outcome, p);
-        kick(dimension, engine, slots[p], p == 0 ? k * mass[1] : -(k * mass[0]), r, t);
-        engine->stamp[slots[p]]++;
+        batch->before[p] = movers_at(dimension, engine, batch->slot[p]);
+        *farthest2 = watch(dimension, flight, engine, batch, p, *farthest2);
     }
-    outcome->momentum = k * mass[1] * mass[0];
-    outcome->r2 = r2;
-    outcome->contact2 = contact * contact;
+    separate(dimension, flight, engine, &batch->before[0], &batch->before[1], batch->r, v);
+    for (int a = 0; a < dimension; a++) {
+        batch->r[a] += v[a] * t;
+        r2 = a == 0 ? batch->r[a] * batch->r[a] : r2 + batch->r[a] * batch->r[a];
+        b = a == 0 ? batch->r[a] * v[a] : b + batch->r[a] * v[a];
+    }
+    Quad contact = contact_of(engine, batch->slot[0], batch->slot[1]);
+    if (flight == GROWING) {
+        const Quad scale = growth.scale + growth.rate * t;
+        contact *= scale;
+        b -= contact * contact / scale * growth.rate;
+    }
+    const Quad mass[2] = {quads_gather(engine->mass, batch->slot[0]),
+                          quads_gather(engine->mass, batch->slot[1])};
+    const Quad k = -2 * b / (r2 * (mass[0] + mass[1]));
+    kick(dimension, engine, batch, 0, k * mass[1]);
+    kick(dimension, engine, batch, 1, -(k * mass[0]));
+    batch->momentum = k * mass[1] * mass[0];
+    batch->r2 = r2;
+    batch->contact2 = contact * contact;
+}
+
+KERNEL void put_mover(const int dimension, const Engine *engine, uint32_t slot,
+                      const Movers *movers, uint32_t m) {
+    for (int a = 0; a < dimension; a++) {
+        engine->now.place[a][slot] = movers->place[a][m];
+        engine->now.velocity[a][slot] = movers->velocity[a][m];
+    }
+}
+
+// Collision m of a batch happens.
+KERNEL void settle(const int dimension, const Engine *engine, const Batch *batch, uint32_t m) {
+    const size_t parts = dimension == 2 ? 1 : 2;
+    FourFloats *const sketch = (FourFloats *)engine->sketch;
+    for (int p = 0; p < 2; p++) {
+        const uint32_t slot = batch->slot[p][m];
+        put_mover(dimension, engine, slot, &batch->after[p], m);
+        for (size_t k = 0; k < parts; k++) sketch[slot * parts + k] = batch->row[p][m][k];
+    }
 }
 
 // A collision that stands.
-KERNEL void count_collision(const int dimension, Engine *engine, const Outcome *outcome,
+KERNEL void count_collision(const int dimension, Engine *engine, const Batch *batch, uint32_t m,
                             Exchange *sums) {
-    exchange_add(dimension, sums, outcome->r, outcome->momentum);
-    count_overlap(engine, outcome->r2, outcome->contact2);
+    const Event *event = &engine->events[batch->number[m]];
+    double r[3];
+    for (int a = 0; a < dimension; a++) r[a] = batch->r[a][m];
+    exchange_add(dimension, sums, r, batch->momentum[m]);
+    count_overlap(engine, batch->r2[m], batch->contact2[m]);
     engine->tally.collisions++;
-    if (engine->log) record(engine, &outcome->event);
-    if (engine->stamp[outcome->event.first] > COLLISIONS_MOST ||
-        engine->stamp[outcome->event.second] > COLLISIONS_MOST)
+    if (engine->log) record(engine, event);
+    if (engine->stamp[event->first] > COLLISIONS_MOST ||
+        engine->stamp[event->second] > COLLISIONS_MOST)
         engine->hung = 1;
 }
 
@@ -315,17 +364,18 @@ KERNEL int event_before(const Engine *engine, const Event *a, const Event *b) {
     return (p < q ? q : p) < (s < t ? t : s);
 }
 
-// The link to the earliest event of a bucket that still stands, or NULL; drops the void ones.
-KERNEL uint32_t *earliest(Engine *engine, uint32_t *bucket) {
+// The link to the earliest event of a bucket that still stands, or NULL. Void ones are dropped if
+// they are so for good.
+KERNEL uint32_t *earliest(Engine *engine, uint32_t *bucket, int for_good) {
     uint32_t *best = NULL;
     for (uint32_t *link = bucket; *link != NO_EVENT;) {
         const Event *event = &engine->events[*link];
-        if (event_is_void(engine, event)) {
-            engine->tally.stale++;
+        const int is_void = event_is_void(engine, event);
+        if (is_void && for_good) {
             event_drop(engine, link);
             continue;
         }
-        if (!best || event_before(engine, event, &engine->events[*best])) best = link;
+        if (!is_void && (!best || event_before(engine, event, &engine->events[*best]))) best = link;
         link = &engine->events[*link].next;
     }
     return best;
@@ -357,50 +407,127 @@ KERNEL void fetch_neighbours(const Engine *engine, uint32_t slot) {
     }
 }
 
-// Neighbours in time are anywhere in space, and what they need in memory: asked for some buckets
-// ahead, it is near when its turn comes. In three steps, each of which reads what the last fetched.
-KERNEL void fetch_ahead(const int dimension, const Engine *engine, uint32_t b) {
-    const Event *events = engine->events;
-    if (b + 3 * FETCH_STEP >= engine->buckets) return;
-    const uint32_t *soon = engine->bucket + b + FETCH_STEP;
-    if (soon[2 * FETCH_STEP] != NO_EVENT) fetch(events + soon[2 * FETCH_STEP]);
-    for (uint32_t e = soon[FETCH_STEP]; e != NO_EVENT; e = events[e].next) {
-        fetch_particle(dimension, engine, events[e].first);
-        fetch_particle(dimension, engine, events[e].second);
+// The first bucket from b on that holds somebody, or `end`.
+KERNEL uint32_t occupied_from(const Engine *engine, uint32_t b, uint32_t end) {
+    while (b < end) {
+        const uint64_t bits = engine->occupied[b / BITS] >> b % BITS;
+        if (bits) {
+            b += (uint32_t)__builtin_ctzll(bits);
+            return b < end ? b : end;
+        }
+        b = (b / BITS + 1) * BITS;
     }
-    for (uint32_t e = soon[0]; e != NO_EVENT; e = events[e].next) {
-        fetch_neighbours(engine, events[e].first);
-        fetch_neighbours(engine, events[e].second);
+    return end;
+}
+
+// What the events of a bucket need, in three steps, each of which reads what the last fetched.
+KERNEL void fetch_bucket(const int dimension, const Engine *engine, uint32_t b, int step) {
+    const Event *events = engine->events;
+    if (step == 0) {
+        fetch(events + engine->bucket[b]);
+        return;
+    }
+    for (uint32_t e = engine->bucket[b]; e != NO_EVENT; e = events[e].next) {
+        const uint32_t slots[2] = {events[e].first, events[e].second};
+        for (int p = 0; p < 2; p++) {
+            if (step == 1)
+                fetch_particle(dimension, engine, slots[p]);
+            else
+                fetch_neighbours(engine, slots[p]);
+        }
     }
 }
 
-// The number of the earliest event from bucket b on, which is taken out, or NO_EVENT.
-KERNEL uint32_t take_earliest(const int dimension, Engine *engine, uint32_t *b) {
-    for (; *b < engine->buckets; ++*b) {
-        uint32_t *link = earliest(engine, &engine->bucket[*b]);
-        if (!link) {
-            if (engine->fetches) fetch_ahead(dimension, engine, *b);
-            continue;
+// Neighbours in time are anywhere in space, and what they need in memory: asked for some buckets
+// ahead, it is near when its turn comes. Buckets from b to `end` have been seen to.
+KERNEL void fetch_ahead(const int dimension, const Engine *engine, uint32_t b, uint32_t end) {
+    if (end + 3 * FETCH_STEP > engine->buckets) return;
+    for (int step = 0; step < 3; step++) {
+        const uint32_t ahead = (uint32_t)(3 - step) * FETCH_STEP;
+        for (uint32_t at = b + ahead; (at = occupied_from(engine, at, end + ahead)) < end + ahead;
+             at++) {
+            fetch_bucket(dimension, engine, at, step);
         }
+    }
+}
+
+// One event more, from bucket b, unless it is void. Stamps void those of its partners to come.
+KERNEL void collect_one(Engine *engine, uint32_t b, uint32_t number, Batch *batch) {
+    const Event *event = &engine->events[number];
+    const uint32_t stands = !event_is_void(engine, event), m = batch->count;
+    batch->number[m] = number;
+    batch->bucket[m] = b;
+    batch->slot[0][m] = event->first;
+    batch->slot[1][m] = event->second;
+    batch->time[m] = event->time;
+    engine->stamp[event->first] += stands;
+    engine->stamp[event->second] += stands;
+    batch->count += stands;
+}
+
+// Of a bucket that holds several. Is anybody left in it?
+KERNEL int collect_crowd(Engine *engine, uint32_t b, Batch *batch) {
+    while (batch->count < BATCH) {
+        uint32_t *link = earliest(engine, &engine->bucket[b], batch->count == 0);
+        if (!link) break;
         const uint32_t number = *link;
         event_drop(engine, link);
-        return number;
+        collect_one(engine, b, number, batch);
     }
-    return NO_EVENT;
+    return engine->bucket[b] != NO_EVENT;
 }
 
-// As if the collision had not been; it is an event again.
-KERNEL void take_back(const int dimension, Engine *engine, const Outcome *outcome) {
-    for (int p = 0; p < 2; p++) {
-        const uint32_t slot = partner(outcome, p);
-        for (int a = 0; a < dimension; a++) {
-            engine->now.place[a][slot] = outcome->place[p][a];
-            engine->now.velocity[a][slot] = outcome->velocity[p][a];
+// Takes out the next events, from bucket b on. Void ones are out for good where nothing that voided
+// them can be taken back: as long as the batch is empty.
+KERNEL void collect(const int dimension, Engine *engine, uint32_t b, Batch *batch) {
+    const uint32_t words = engine->buckets / BITS, begin = b;
+    uint32_t word = b / BITS;
+    uint64_t bits = engine->occupied[word] & UINT64_MAX << b % BITS;
+    batch->count = 0;
+    while (batch->count < BATCH) {
+        while (bits == 0 && ++word < words) bits = engine->occupied[word];
+        if (bits == 0) break;
+        b = word * BITS + (uint32_t)__builtin_ctzll(bits);
+        const uint32_t number = engine->bucket[b], before = batch->count;
+        int stays;
+        if (__builtin_expect(engine->events[number].next == NO_EVENT, 1)) {
+            collect_one(engine, b, number, batch);
+            stays = before > 0 && batch->count == before;
+        } else {
+            stays = collect_crowd(engine, b, batch);
         }
-        sketch_one(dimension, engine, slot, outcome->place[p], outcome->velocity[p]);
-        engine->stamp[slot]--;
+        engine->occupied[word] &= ~((uint64_t)!stays << b % BITS);
+        bits &= bits - 1;
     }
-    event_link(engine, outcome->number);
+    if (engine->fetches) fetch_ahead(dimension, engine, begin, b);
+}
+
+// Lanes that nobody looks at.
+KERNEL void fill_up(Batch *batch) {
+    for (uint32_t m = batch->count; m < BATCH; m++) {
+        batch->slot[0][m] = batch->slot[0][0];
+        batch->slot[1][m] = batch->slot[1][0];
+        batch->time[m] = batch->time[0];
+    }
+}
+
+// As if the collisions from m on had not been; they are events again.
+KERNEL void take_back(const int dimension, Engine *engine, Batch *batch, uint32_t m) {
+    for (uint32_t q = m; q < batch->count; q++) {
+        for (int p = 0; p < 2; p++) {
+            const uint32_t slot = batch->slot[p][q];
+            double place[3], velocity[3];
+            for (int a = 0; a < dimension; a++) {
+                place[a] = batch->before[p].place[a][q];
+                velocity[a] = batch->before[p].velocity[a][q];
+            }
+            put_mover(dimension, engine, slot, &batch->before[p], q);
+            sketch_one(dimension, engine, slot, place, velocity);
+            engine->stamp[slot]--;
+        }
+        event_link(engine, batch->number[q]);
+    }
+    batch->count = m;
 }
 
 // Of the neighbour with this number; steps of whole blocks always find 0.
@@ -408,20 +535,20 @@ KERNEL uint32_t place_in_block(uint32_t n) {
     return (int)HALF < (int)HALF_BLOCK ? n % HALF_BLOCK : 0;
 }
 
-// Whom may the partners meet in the rest of the window? The neighbours of both are tested at once,
-// those of one in each half of a register.
+// Whom may the partners in collision m of a batch meet in the rest of the window? The neighbours of
+// both are tested at once, those of one in each half of a register.
 KERNEL void look_round(const int dimension, const int flight, const Engine *engine,
-                       const Sieve *sieve, Outcome *outcome) {
+                       const Sieve *sieve, Batch *batch, uint32_t m) {
     const NeighbourList *list = &engine->list;
     const uint32_t row = dimension == 2 ? ROW_2D : ROW_3D, none = list->start[engine->count];
-    const uint32_t slots[2] = {partner(outcome, 0), partner(outcome, 1)};
+    const uint32_t slots[2] = {batch->slot[0][m], batch->slot[1][m]};
     const uint32_t own[2] = {slots[0] * row, slots[1] * row};
-    const float gone = (float)(outcome->event.time * engine->half_per_window);
+    const float gone = (float)(batch->time[m] * engine->half_per_window);
     const Rows i = {engine->sketch, {&own[0], &own[1]}, 0};
     uint32_t at[2] = {list->start[slots[0]], list->start[slots[1]]};
     const uint32_t end[2] = {list->start[slots[0] + 1], list->start[slots[1] + 1]};
-    uint32_t blocks = 0;
-    for (; at[0] < end[0] || at[1] < end[1]; at[0] += HALF, at[1] += HALF) {
+    for (uint32_t code = m * MEMBER; at[0] < end[0] || at[1] < end[1];
+         code += WIDE, at[0] += HALF, at[1] += HALF) {
         const uint32_t *rows[2];
         const float *contact2[2];
         for (int p = 0; p < 2; p++) {
@@ -430,70 +557,107 @@ KERNEL void look_round(const int dimension, const int flight, const Engine *engi
             contact2[p] = list->blocks[n / HALF_BLOCK].contact2 + place_in_block(n);
         }
         const Rows j = {engine->sketch, {rows[0], rows[1]}, 1};
-        outcome->may_meet[blocks++] = may_meet(dimension, flight == SHEARED, sieve, &i, &j,
-                                               wides_load_halves(contact2[0], contact2[1]), &gone);
+        const unsigned bits = may_meet(dimension, flight == SHEARED, sieve, &i, &j,
+                                       wides_load_halves(contact2[0], contact2[1]), &gone);
+        wides_pack_numbers(list->hit_first + batch->hits, bits, code, 1);
+        batch->hits += (unsigned)__builtin_popcount(bits);
     }
-    outcome->blocks = blocks;
 }
 
-// Is a slot a partner of this one?
-KERNEL int takes_part(const Outcome *outcome, uint32_t slot) {
-    return (slot == outcome->event.first) | (slot == outcome->event.second);
+// The first collision of a batch after m that a slot takes part in, or all of them.
+KERNEL uint32_t takes_part(const Batch *batch, uint32_t m, uint32_t slot) {
+    const unsigned any = fours_equal(batch->slot[0], slot) | fours_equal(batch->slot[1], slot);
+    return (uint32_t)__builtin_ctz((any | 1u << batch->count) & ~((2u << m) - 1));
 }
 
-// The events that follow from a collision. The one after it, if any, was carried out meanwhile:
-// does it stand? It is taken back where an event comes before it, and where one of its partners is
-// among those that are to be looked at as they were.
-KERNEL int follow(const int dimension, const int flight, Engine *engine, Growth growth,
-                  Outcome *outcome, const Outcome *next) {
-    const NeighbourList *list = &engine->list;
-    const uint32_t shift = dimension == 2 ? 2 : 3;
-    int stands = next->number != NO_EVENT;
-    for (uint32_t block = 0; block < outcome->blocks; block++) {
-        for (unsigned bits = outcome->may_meet[block]; bits; bits &= bits - 1) {
-            const int k = __builtin_ctz(bits);
-            const uint32_t i = partner(outcome, k / HALF);
-            const uint32_t n = list->start[i] + block * HALF + (uint32_t)k % HALF;
-            const uint32_t j = list->blocks[n / HALF_BLOCK].row[n % HALF_BLOCK] >> shift;
-            const int disturbed = stands && takes_part(next, j);
-            if (disturbed) take_back(dimension, engine, next);
-            const double time =
-                predict(dimension, flight, engine, i, j, outcome->event.time, growth);
-            const int overtaken = stands && !disturbed && time <= next->event.time;
-            if (overtaken) take_back(dimension, engine, next);
-            if (disturbed | overtaken) stands = 0;
+// Whom a code of look_round() means: a partner in collision m, and a neighbour.
+typedef struct Hit {
+    uint32_t m, i, j;
+} Hit;
+
+KERNEL Hit hit_of(const int dimension, const NeighbourList *list, const Batch *batch,
+                  uint32_t code) {
+    const uint32_t shift = dimension == 2 ? 2 : 3, m = code / MEMBER, k = code % MEMBER;
+    const uint32_t i = batch->slot[k % WIDE / HALF][m];
+    const uint32_t n = list->start[i] + k / WIDE * HALF + k % HALF;
+    return (Hit){.m = m, .i = i, .j = list->blocks[n / HALF_BLOCK].row[n % HALF_BLOCK] >> shift};
+}
+
+// The events of four of the hits from h on, up to one that must be looked at as it was. Returns how
+// many were dealt with.
+KERNEL size_t follow_four(const int dimension, const int flight, Engine *engine, Growth growth,
+                          Batch *batch, size_t h) {
+    uint32_t m[4], i[4], j[4];
+    Quad s;
+    const size_t some = batch->hits - h < 4 ? batch->hits - h : 4;
+    for (size_t k = 0; k < 4; k++) {
+        const Hit hit =
+            hit_of(dimension, &engine->list, batch, engine->list.hit_first[h + (k < some ? k : 0)]);
+        m[k] = hit.m, i[k] = hit.i, j[k] = hit.j;
+        s[k] = batch->time[hit.m];
+    }
+    const Quad times = meeting_times(dimension, flight, engine, i, j, s, growth);
+    for (size_t k = 0; k < some; k++) {
+        if (m[k] >= batch->count) return batch->hits - h;
+        const uint32_t disturbed = takes_part(batch, m[k], j[k]);
+        if (disturbed < batch->count) {
+            take_back(dimension, engine, batch, disturbed);
+            return k;
         }
+        const double time = times[k];
+        if (time < INFINITY) event_put(engine, time, i[k], j[k]);
+        const uint32_t before = batch->count;
+        while (batch->count > m[k] + 1 && time <= batch->time[batch->count - 1]) {
+            take_back(dimension, engine, batch, batch->count - 1);
+        }
+        if (batch->count != before) return k + 1;
     }
-    outcome->blocks = 0;
-    return stands;
+    return some;
 }
 
-// In order, but what follows from a collision is found out while the next one is on its way: the
-// processor would otherwise have to guess whether anything does, and wait for the answer. That one
-// is almost always right, and else taken back.
+// The events that follow from the collisions of a batch. A collision is taken back where an event
+// comes before it, and where one of its partners is among those that are to be looked at as they
+// were.
+KERNEL void follow(const int dimension, const int flight, Engine *engine, Growth growth,
+                   Batch *batch) {
+    for (size_t h = 0; h < batch->hits;) {
+        h += follow_four(dimension, flight, engine, growth, batch, h);
+    }
+}
+
+// The collisions of a batch, and what follows from them.
+KERNEL void carry_out_batch(const int dimension, const int flight, Engine *engine, Growth growth,
+                            const Sieve *sieve, Batch *batch, Quad *farthest2) {
+    fill_up(batch);
+    collide(dimension, flight, engine, growth, batch, farthest2);
+    batch->hits = 0;
+    for (uint32_t m = 0; m < batch->count; m++) {
+        settle(dimension, engine, batch, m);
+        look_round(dimension, flight, engine, sieve, batch, m);
+    }
+    follow(dimension, flight, engine, growth, batch);
+}
+
+// In order, a few at a time: what a collision changes decides only now and then about the next
+// ones, and the processor would have to wait for each.
 KERNEL void carry_out(const int dimension, const int flight, Engine *engine, Growth growth,
                       const Sieve *sieve) {
+    const uint64_t before = engine->tally.collisions;
     Exchange sums = exchange_open(dimension, &engine->tally);
-    Outcome outcomes[2] = {{.may_meet = engine->list.hit_first},
-                           {.may_meet = engine->list.hit_second}};
-    Outcome *last = &outcomes[0], *next = &outcomes[1];
-    for (uint32_t b = 0; !engine->hung;) {
-        next->number = take_earliest(dimension, engine, &b);
-        if (next->number == NO_EVENT && last->blocks == 0) break;
-        if (next->number != NO_EVENT) {
-            next->event = engine->events[next->number];
-            collide(dimension, flight, engine, growth, next);
-            look_round(dimension, flight, engine, sieve, next);
-        }
-        if (follow(dimension, flight, engine, growth, last, next)) {
-            count_collision(dimension, engine, next, &sums);
-            Outcome *const other = last;
-            last = next;
-            next = other;
-        } else {
-            b = bucket_at(engine, last->event.time);
+    Quad farthest2 = {0};
+    Batch batch;
+    for (uint32_t b = 0; !engine->hung; b = batch.bucket[batch.count - 1]) {
+        collect(dimension, engine, b, &batch);
+        if (batch.count == 0) break;
+        carry_out_batch(dimension, flight, engine, growth, sieve, &batch, &farthest2);
+        for (uint32_t m = 0; m < batch.count; m++) {
+            count_collision(dimension, engine, &batch, m, &sums);
         }
     }
+    for (int m = 0; m < BATCH; m++) {
+        if (farthest2[m] > engine->list.farthest2) engine->list.farthest2 = farthest2[m];
+    }
+    engine->tally.stale += engine->events_used - (engine->tally.collisions - before);
     exchange_close(dimension, &sums, &engine->tally);
 }
 
@@ -620,7 +784,7 @@ KERNEL void run(const int dimension, const int flight, Engine *engine) {
     const Growth growth = {.scale = own.scale, .rate = own.growth};
     own.events_used = 0;
     memset(own.stamp, 0, own.slots * sizeof *own.stamp);
-    memset(own.bucket, 0xff, own.buckets * sizeof *own.bucket);
+    memset(own.occupied, 0, own.buckets / 8);
     const Sieve sieve = sieve_of(dimension, flight == SHEARED, &own);
     predict_all(dimension, flight, &own, growth, &sieve);
     carry_out(dimension, flight, &own, growth, &sieve);

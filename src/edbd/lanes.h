@@ -59,8 +59,39 @@ KERNEL unsigned lanes_outside(Lanes x, double edge) {
 #endif
 }
 
-// Four doubles: sums over collisions.
+// Four doubles: collisions, and sums over them.
 typedef double Quad __attribute__((vector_size(32), aligned(32), may_alias));
+typedef int64_t QuadBits __attribute__((vector_size(32)));
+
+KERNEL Quad quads_gather(const double *from, const uint32_t at[4]) {
+    return (Quad){from[at[0]], from[at[1]], from[at[2]], from[at[3]]};
+}
+
+KERNEL Quad quads_choose(QuadBits which, Quad yes, Quad no) {
+    return (Quad)((which & (QuadBits)yes) | (~which & (QuadBits)no));
+}
+
+KERNEL Quad quads_sqrt(Quad x) {
+#if LANES >= 4
+    return (Quad)_mm256_sqrt_pd((__m256d)x);
+#else
+    for (int k = 0; k < 4; k++) x[k] = sqrt(x[k]);
+    return x;
+#endif
+}
+
+// Which of four are x, one bit each.
+KERNEL unsigned fours_equal(const uint32_t at[4], uint32_t x) {
+#if defined(__x86_64__)
+    const __m128i four = _mm_loadu_si128((const __m128i *)at);
+    return (unsigned)_mm_movemask_ps(
+        _mm_castsi128_ps(_mm_cmpeq_epi32(four, _mm_set1_epi32((int)x))));
+#else
+    unsigned bits = 0;
+    for (unsigned k = 0; k < 4; k++) bits |= (unsigned)(at[k] == x) << k;
+    return bits;
+#endif
+}
 
 #define WIDE (2 * LANES) // floats at a time
 

@@ -188,7 +188,7 @@ static Status grow_pairs(NeighbourList *list, size_t pairs) {
     TRY(grow_numbers(&list->first, list->pairs, capacity));
     TRY(grow_numbers(&list->second, list->pairs, capacity));
     TRY(grow_floats(&list->pair_contact2, list->pairs, capacity));
-    TRY(grow_numbers(&list->hit_first, 0, capacity));
+    TRY(grow_numbers(&list->hit_first, 0, 2 * capacity)); // of both ways
     TRY(grow_numbers(&list->hit_second, 0, capacity));
     if (list->pruned) {
         TRY(grow_numbers(&list->pruned_first, 0, capacity));

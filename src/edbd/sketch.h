@@ -300,3 +300,31 @@ KERNEL void sketch_one(const int dimension, const Engine *engine, uint32_t slot,
     to[0] = __builtin_convertvector(now, FourFloats);
     to[1] = __builtin_convertvector(then, FourFloats);
 }
+
+// Four columns into four rows.
+KERNEL void quads_turn(const Quad column[4], Quad row[4]) {
+    const Quad even01 = __builtin_shufflevector(column[0], column[1], 0, 4, 2, 6);
+    const Quad odd01 = __builtin_shufflevector(column[0], column[1], 1, 5, 3, 7);
+    const Quad even23 = __builtin_shufflevector(column[2], column[3], 0, 4, 2, 6);
+    const Quad odd23 = __builtin_shufflevector(column[2], column[3], 1, 5, 3, 7);
+    row[0] = __builtin_shufflevector(even01, even23, 0, 1, 4, 5);
+    row[1] = __builtin_shufflevector(odd01, odd23, 0, 1, 4, 5);
+    row[2] = __builtin_shufflevector(even01, even23, 2, 3, 6, 7);
+    row[3] = __builtin_shufflevector(odd01, odd23, 2, 3, 6, 7);
+}
+
+// The sketches of four particles, each of one part in 2D and of two in 3D.
+KERNEL void sketch_quads(const int dimension, const Quad now[4], const Quad then[4],
+                         FourFloats row[4][2]) {
+    Quad first[4], second[4];
+    if (dimension == 2) {
+        quads_turn((const Quad[4]){now[0], now[1], then[0], then[1]}, first);
+    } else {
+        quads_turn(now, first);
+        quads_turn(then, second);
+    }
+    for (int m = 0; m < 4; m++) {
+        row[m][0] = __builtin_convertvector(first[m], FourFloats);
+        if (dimension == 3) row[m][1] = __builtin_convertvector(second[m], FourFloats);
+    }
+}
