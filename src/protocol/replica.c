@@ -338,6 +338,7 @@ void replica_save(Replica *replica, Archive *archive) {
 static Status load(Replica *replica, Archive *archive) {
     uint64_t stage = 0, begun = 0;
     archive_place(replica, archive, &stage, &begun);
+    TRY(archive_status(archive, false)); // from here on the stage is one of the plan
     TRY(state_create(&replica->state, &replica->plan->system));
     for (size_t s = 0; s < STAGES_MOST; s++) replica->boxes[s] = replica->state->box;
     archive_state(replica, archive, (size_t)(stage + begun));

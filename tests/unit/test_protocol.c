@@ -399,7 +399,7 @@ START_TEST(torn_and_spoiled_saves_are_refused) {
         Archive torn = archive_reader(saved.bytes, cut);
         ck_assert_int_eq(replica_load(&loaded, plan, 0, &torn), BAD_DATA);
     }
-    saved.bytes[8] = 77; // a stage that is not there
+    saved.bytes[8] = saved.bytes[15] = 77; // a stage that is not there, nor would it fit in memory
     Archive spoiled = archive_reader(saved.bytes, saved.size);
     ck_assert_int_eq(replica_load(&loaded, plan, 0, &spoiled), BAD_DATA);
     archive_free(&saved);
