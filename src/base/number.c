@@ -2,7 +2,8 @@
 // Numbers of run files, tables and results.
 #include "base/number.h"
 
-#include <locale.h>
+#include "base/plain_locale.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,17 +35,6 @@ static bool is_decimal(const char *c) {
     return *c == '\0';
 }
 
-// The decimal point is a point here, whatever the locale of the process says.
-static locale_t enter_plain_locale(locale_t *plain) {
-    *plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    return uselocale(*plain);
-}
-
-static void leave_plain_locale(locale_t before, locale_t plain) {
-    uselocale(before);
-    if (plain) freelocale(plain);
-}
-
 static bool is_zero(const char *decimal) {
     const size_t mantissa = strcspn(decimal, "eE");
     return strcspn(decimal, "123456789") >= mantissa;
@@ -52,10 +42,9 @@ static bool is_zero(const char *decimal) {
 
 bool number_read(const char *text, double *value) {
     if (!is_decimal(text)) return false;
-    locale_t plain;
-    const locale_t before = enter_plain_locale(&plain);
+    const PlainLocale plain = plain_locale_enter();
     const double read = strtod(text, NULL); // correctly rounded by the C library
-    leave_plain_locale(before, plain);
+    plain_locale_leave(plain);
     if (!isfinite(read) || (read == 0 && !is_zero(text))) return false;
     *value = read;
     return true;
@@ -101,12 +90,11 @@ const char *number_write(char out[NUMBER_SIZE], double value) {
         snprintf(out, NUMBER_SIZE, "%s", isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
         return out;
     }
-    locale_t plain;
-    const locale_t before = enter_plain_locale(&plain);
+    const PlainLocale plain = plain_locale_enter();
     for (int behind = 0; behind < 17; behind++) {
         print_real(out, value, behind);
         if (strtod(out, NULL) == value) break;
     }
-    leave_plain_locale(before, plain);
+    plain_locale_leave(plain);
     return out;
 }

@@ -115,6 +115,8 @@ static Status list_left_out(Results *all, const ResultSeries *series) {
 
 static Status put_series(Results *all, const Axes *axes, size_t point, const Results *one,
                          const ResultSeries *series) {
+    // Over the sweep the name is that of the quantity: of the pressure, not of its blocks in time.
+    if (results_find_scalar(one, series->stage, series->observable)) return OK;
     ResultSeries shape;
     if (!shape_series(&shape, all, axes, series)) return list_left_out(all, series);
     for (size_t r = 0; r < one->replicas; r++) {

@@ -185,7 +185,7 @@ Status store_log(Store *store, const char *format, ...) {
     char line[LINE_SIZE];
     const time_t now = time(NULL);
     struct tm date;
-    size_t length = strftime(line, sizeof line, "%Y-%m-%d %H:%M:%S ", localtime_r(&now, &date));
+    size_t length = strftime(line, sizeof line, "%Y-%m-%d %H:%M:%S %z ", localtime_r(&now, &date));
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(line + length, sizeof line - length - 1, format, arguments);

@@ -175,11 +175,22 @@ END
 sed 's/shear_rate: 1,/shear_table: {file: rates.csv},/' flow.yaml > ramp.yaml
 printf '0, 2\n' > rates.csv
 echo 'sweep: {protocol.flow.shear_rate: [1, 2]}' >> flow.yaml
+# The pressure is a number as well as a series of blocks.
+sed -e '/^protocol/,$d' small.yaml > dense.yaml
+cat >> dense.yaml << 'END'
+protocol:
+  - {stage: rest, time: 0.2, observe: [pressure]}
+ensemble: {replicas: 2}
+sweep: {system.packing_fraction: [0.2, 0.3]}
+END
 "$perrin" run flow.yaml --quiet --threads 1 && "$perrin" run ramp.yaml --quiet --threads 1 || exit 1
 expect "what could not be laid side by side is named" \
     sh -c "'$perrin' show flow | grep '^not side by side, .*: flow/stress\$'"
 expect "and on the page" grep -q 'not side by side.*flow/stress' flow/report.html
 expect "under the figure, too" grep -q 'Only of points of the sweep' flow/report.html
+"$perrin" run dense.yaml --quiet --threads 1 || exit 1
+expect "a number that all points have is told as such" lacks 'not side by side' dense/report.html
+expect "and its figure says nothing else" lacks 'Only of points of the sweep' dense/report.html
 expect "rates from a file are those that they say" \
     sh -c "'$perrin' show flow/shear_rate=2 shear_stress --csv | cut -d, -f2 > a &&
            '$perrin' show ramp shear_stress --csv | cut -d, -f2 > b && test -s a && cmp a b"

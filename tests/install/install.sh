@@ -58,6 +58,28 @@ sed 's/observe: \[.*\]/observe: [self_scattering: {wave_numbers: [3, 5], waiting
 eval "gcc -std=c11 $strict $(pkg-config --cflags perrin) '$here/series.c' $libs -o series"
 ./series series-run/results.h5 quiescent/self_scattering 5 || fail "a series by the library is not what it is"
 
+# In a program that writes 0,5 for a half, ours are as ever.
+printf '%s\n' 'comment_char %' 'escape_char /' LC_NUMERIC 'decimal_point ","' 'thousands_sep ""' \
+    'grouping -1' 'END LC_NUMERIC' >comma.src
+localedef -c -i ./comma.src ./comma >locale.log 2>&1 || true # it misses the other categories
+if [ -f comma/LC_NUMERIC ]; then
+    eval "gcc -std=c11 $strict $(pkg-config --cflags perrin) '$here/comma.c' $libs -o comma-program"
+    numbers() { # of DIR, without times and speeds
+        (cd "$1" && cat plan.yaml figures/*.gp figures/*.csv &&
+            sed -n '/<h1>/,/<h2>Health/p' report.html | sed 's/finished [0-9TZ:-]*//')
+    }
+    ./comma-program C "$here/run.yaml" point-run >point.out || fail "a program in C's locale: $(cat point.out)"
+    LOCPATH=$work ./comma-program comma "$here/run.yaml" comma-run >comma.out ||
+        fail "a program with decimal commas: $(cat comma.out)"
+    [ "$(tail -n 1 comma.out)" = 0,5 ] || fail "the library changed the locale of its program"
+    [ "$(head -n 1 point.out)" = "$(head -n 1 comma.out)" ] || fail "a comma: $(head -n 1 comma.out)"
+    numbers point-run >point.txt
+    numbers comma-run >comma.txt
+    cmp point.txt comma.txt || fail "decimal commas in what the library wrote"
+else
+    echo "install: no localedef here, decimal commas not tried"
+fi
+
 names=$(nm -g --defined-only "$prefix/lib/libperrin.a" | awk 'NF == 3 { print $3 }' | grep -v '^perrin_') || true
 [ -z "$names" ] || fail "the library shows names that are not its own: $names"
 echo "installed, linked as C, as C++ and by CMake, and run: $(cat as-c.out)"

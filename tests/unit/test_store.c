@@ -137,6 +137,9 @@ START_TEST(texts_and_log_lines_are_kept) {
     ck_assert_int_eq(store_log(store, "two"), OK);
     ck_assert_int_eq(store_read_text(store, "log.txt", &text), OK);
     ck_assert_ptr_nonnull(strstr(text, " one 1\n"));
+    int zone = 0, read = 0; // that a reader elsewhere knows when it was
+    ck_assert_int_eq(sscanf(text, "%*d-%*d-%*d %*d:%*d:%*d %5d%n", &zone, &read), 1);
+    ck_assert_int_eq(read, (int)strlen("2026-01-31 12:00:00 +0000"));
     ck_assert_ptr_nonnull(strstr(text, " two\n"));
     free(text);
     store_close(store);
