@@ -50,8 +50,6 @@ size_t config_point_count(const ConfigPoints *points);
 size_t config_sweep_keys(const ConfigPoints *points); // 0: it sweeps nothing
 const SweepKey *config_sweep_key(const ConfigPoints *points, size_t key);
 
-// The place of a point among the words of each key.
-void config_point_indices(const ConfigPoints *points, size_t point, size_t index[SWEEP_KEYS_MOST]);
 // "packing_fraction=0.7_step=0.05", fit for a folder.
 void config_point_name(const ConfigPoints *points, size_t point, char name[POINT_NAME_SIZE]);
 Status config_point_plan(Plan **out, const ConfigPoints *points, size_t point);

@@ -36,10 +36,6 @@ const SweepKey *config_sweep_key(const ConfigPoints *points, size_t key) {
     return &points->sweep.key[key];
 }
 
-void config_point_indices(const ConfigPoints *points, size_t point, size_t index[SWEEP_KEYS_MOST]) {
-    sweep_indices(&points->sweep, point, index);
-}
-
 void config_point_name(const ConfigPoints *points, size_t point, char name[POINT_NAME_SIZE]) {
     size_t index[SWEEP_KEYS_MOST], length = 0;
     sweep_indices(&points->sweep, point, index);

@@ -427,10 +427,6 @@ const Mixture *measured_mixture(const Measured *measured) {
     return &measured->mixture;
 }
 
-size_t measured_states(const Measured *measured) {
-    return measured->states;
-}
-
 double measured_lowest(const Measured *measured) {
     double lowest = 1;
     for (size_t s = 0; s < measured->states; s++)

@@ -28,7 +28,6 @@ void measured_free(Measured *measured);
 Status measured_add(Measured *measured, const MeasuredState *state, size_t groups, size_t omitted);
 
 const Mixture *measured_mixture(const Measured *measured);
-size_t measured_states(const Measured *measured);
 double measured_lowest(const Measured *measured);  // packing fraction
 double measured_highest(const Measured *measured); // packing fraction
 // The mean square of (c - fit)/error over all wave numbers and pairs: about 1; NaN of one replica.
