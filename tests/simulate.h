@@ -7,8 +7,7 @@
 #include "base/memory.h"
 #include "observe.h"
 #include "protocol/replica.h"
-
-#include <stdio.h>
+#include "suite.h"
 
 // Event-driven Brownian dynamics of `system`: settled for `settle` d sqrt(m/kT) of Newtonian
 // flight, then measured for `time` d^2/D0.
@@ -100,12 +99,3 @@ static inline void expect_within(const char *what, Estimate found, double expect
         tcase_add_loop_test(added, test, 0, (int)(count));                                         \
         suite_add_tcase(suite, added);                                                             \
     } while (0)
-
-static inline int run_suite(Suite *suite) {
-    setvbuf(stdout, NULL, _IOLBF, 0); // what was found is seen even if the next thing fails
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
-}

@@ -3,6 +3,7 @@
 // as its README says. Results are made up here; each test has a folder of its own.
 #include "gallery.h"
 #include "measure.h"
+#include "suite.h"
 
 #include "base/memory.h"
 #include "store/store.h"
@@ -208,9 +209,5 @@ int main(void) {
     tcase_add_test(tests, verdicts_are_as_the_readme_says);
     Suite *suite = suite_create("gallery");
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

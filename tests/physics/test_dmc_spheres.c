@@ -2,6 +2,8 @@
 // Monte Carlo of balls as physics: acceptances and displacements of dense and dilute hard spheres
 // against independent values, the exact small-step slope, free walks, contact values and so the
 // pressure, a pair of soft spheres against quadrature. Fixed seeds.
+#include "suite.h"
+
 #include "dmc/chain.h"
 #include "packing/packing.h"
 #include "state/equation_of_state.h"
@@ -249,9 +251,5 @@ int main(void) {
     tcase_add_test(all, unfolded_positions_walk_freely);
     tcase_add_loop_test(all, a_pair_of_soft_spheres_has_its_mean_energy, 0, 3);
     suite_add_tcase(suite, all);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "observe.h"
+#include "suite.h"
 
 enum { BLOCKS = 16 };
 static const RngKey KEY = {.seed = 11};
@@ -94,9 +95,5 @@ int main(void) {
     tcase_add_loop_test(physics, pressure_and_collision_rate_are_those_of_the_equation_of_state, 0,
                         CASES_COUNT);
     suite_add_tcase(suite, physics);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

@@ -5,6 +5,7 @@
 #include "mct/correlators.h"
 #include "mct/critical.h"
 #include "observe.h"
+#include "suite.h"
 #include "rng/rng.h"
 
 #include <stdio.h>
@@ -222,9 +223,5 @@ int main(void) {
     tcase_add_test(c, a_glass_has_its_plateau_at_the_end);
     tcase_add_test(c, theory_factorises_around_its_plateaus);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return run_suite(suite);
 }

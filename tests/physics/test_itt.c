@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mode-coupling theory under shear: its kernels against plain double sums, its limits without
 // memory and without shear, symmetry, order of accuracy, an independent solution.
+#include "suite.h"
+
 #include "itt/flow.h"
 #include "itt/kernel.h"
 #include "itt/transient.h"
@@ -577,9 +579,5 @@ int main(void) {
     tcase_add_test(tests, a_glass_has_a_yield_stress_and_a_fluid_a_viscosity);
     tcase_add_test(tests, an_independent_solution_is_met);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Runs of the theory under shear as a whole: what is asked for is in the results, under the names
 // and axes of a simulation, and the parts agree with each other.
+#include "suite.h"
+
 #include "itt/itt.h"
 
 #include "oz/oz.h"
@@ -154,9 +156,5 @@ int main(void) {
     tcase_add_test(tests, a_separation_is_counted_from_the_transition);
     tcase_add_loop_test(tests, the_transition_is_that_of_the_plane_s_cutoff, 0, 2);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

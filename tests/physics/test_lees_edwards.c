@@ -7,6 +7,7 @@
 #include "packing/packing.h"
 
 #include "observe.h"
+#include "suite.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -273,9 +274,5 @@ int main(void) {
     tcase_add_loop_test(all, sheared_states_never_overlap, 0, 6);
     tcase_add_test(all, a_newtonian_stage_begins_without_the_flow);
     suite_add_tcase(suite, all);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

@@ -5,6 +5,7 @@
 // errors.
 #include "dmc/clock.h"
 #include "observe.h"
+#include "suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -217,9 +218,5 @@ int main(void) {
     tcase_add_loop_test(all, a_lone_tracer_moves_as_its_trials_say, 0, 2 * WORKS * PULL_CLOCKS);
     tcase_add_loop_test(all, event_driven_drift_is_exact, 0, 7);
     suite_add_tcase(suite, all);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

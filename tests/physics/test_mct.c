@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mode-coupling theory: the kernel against the direct integral over wave vectors, its derivative
 // and adjoint, and glass transitions against values computed with another program.
+#include "suite.h"
+
 #include "mct/critical.h"
 #include "mct/glass.h"
 #include "mct/lines.h"
@@ -448,9 +450,5 @@ int main(void) {
     tcase_add_test(tests, a_bracket_that_holds_no_transition_is_refused);
     tcase_add_test(tests, exponents_follow_from_lambda);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

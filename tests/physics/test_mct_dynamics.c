@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mode-coupling theory in time: the memory integral against an exact solution, limits of long and
 // short times, and the scaling functions near a transition.
+#include "suite.h"
+
 #include "mct/beta.h"
 #include "mct/correlators.h"
 #include "mct/critical.h"
@@ -301,9 +303,5 @@ int main(void) {
     tcase_add_loop_test(tests, the_beta_function_has_its_limits, 0, SCALING);
     tcase_add_test(tests, the_final_decay_is_the_master_curve);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

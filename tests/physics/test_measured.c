@@ -2,6 +2,8 @@
 // Measured structure factors as input of the theory: what a closure gives, sampled with the noise
 // of Gaussian densities, leads back to the transition of the closure; and files that lie about
 // themselves are refused.
+#include "suite.h"
+
 #include "itt/itt.h"
 #include "mct/critical.h"
 #include "numerics/small.h"
@@ -350,9 +352,5 @@ int main(void) {
     tcase_add_test(tests, a_folder_of_runs_gives_the_transition_with_its_error);
     tcase_add_test(tests, discs_under_shear_may_have_a_measured_structure);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return run_suite(suite);
 }

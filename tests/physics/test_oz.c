@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Structures of hard discs and spheres against exact results and independent solutions.
+#include "suite.h"
+
 #include "oz/inside.h"
 #include "oz/oz.h"
 
@@ -287,9 +289,5 @@ int main(void) {
     tcase_add_test(tests, grids_agree_with_closed_forms_and_collocation);
     tcase_add_test(tests, what_cannot_be_is_refused);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

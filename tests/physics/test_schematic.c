@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The schematic model F12: exact results at rest, the flow curve under steady shear, and shear that
 // varies, against the plain double integral.
+#include "suite.h"
+
 #include "mct/beta.h"
 #include "schematic/driven.h"
 #include "schematic/steady.h"
@@ -424,9 +426,5 @@ int main(void) {
     suite_add_tcase(suite, rest);
     suite_add_tcase(suite, flow);
     suite_add_tcase(suite, varying);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Runs of the schematic model as a whole: what is asked for is in the results, under the names of a
 // simulation, and the parts agree with each other.
+#include "suite.h"
+
 #include "schematic/schematic.h"
 
 #include "config/options.h"
@@ -171,9 +173,5 @@ int main(void) {
     tcase_add_test(test, a_cycle_has_its_moduli);
     tcase_add_test(test, what_cannot_be_is_said);
     suite_add_tcase(suite, test);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The isotropically sheared model: at rest and at small rates it is the theory at rest, a glass
 // yields, slow flow at the transition is beta scaling, and numbers converge with the grid.
+#include "suite.h"
+
 #include "mct/sheared.h"
 
 #include "mct/beta.h"
@@ -181,9 +183,5 @@ int main(void) {
     tcase_add_test(tests, a_glass_yields);
     tcase_add_loop_test(tests, slow_flow_at_the_transition_is_beta_scaling, 0, 2);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Runs of the theory as a whole: what is asked for is in the results, under the names and axes of a
 // simulation, and the parts agree with each other.
+#include "suite.h"
+
 #include "theory/theory.h"
 
 #include "oz/oz.h"
@@ -193,9 +195,5 @@ int main(void) {
     tcase_add_test(tests, a_fluid_keeps_nothing);
     tcase_add_test(tests, a_fluid_diffuses_in_the_end);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

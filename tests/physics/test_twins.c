@@ -3,6 +3,7 @@
 // the same state, so that chaos does not part them, and must find the same pairs in the same order
 // at the same times, and end in the same places.
 #include "reference_engine.h"
+#include "suite.h"
 
 #include "edbd/edbd.h"
 #include "packing/packing.h"
@@ -232,9 +233,5 @@ int main(void) {
     tcase_add_test(all, sheared_particles_collide_as_their_twins);
     tcase_add_test(all, a_pulled_particle_collides_as_its_twin);
     suite_add_tcase(suite, all);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

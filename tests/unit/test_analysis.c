@@ -4,6 +4,7 @@
 #include "state/equation_of_state.h"
 #include "base/constants.h"
 #include "observe.h"
+#include "suite.h"
 
 #include <stdlib.h>
 
@@ -576,9 +577,5 @@ int main(void) {
     tcase_add_test(c, deriving_twice_changes_nothing);
     tcase_add_test(c, a_structure_factor_changes_since_the_first_stage_that_has_it);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

@@ -4,6 +4,7 @@
 #include "dmc/balls.h"
 #include "packing/packing.h"
 #include "reference_chain.h"
+#include "suite.h"
 
 #include "base/memory.h"
 
@@ -282,9 +283,5 @@ int main(void) {
     tcase_add_test(all, sizes_grow_until_something_would_overlap);
     tcase_add_test(all, what_cannot_work_is_a_sentence);
     suite_add_tcase(suite, all);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Base, box, shapes, system and state: what everything else stands on.
+#include "suite.h"
+
 #include "base/archive.h"
 #include "base/memory.h"
 #include "base/status.h"
@@ -297,9 +299,5 @@ int main(void) {
     tcase_add_test(all, a_state_is_loaded_to_the_bit_and_a_spoiled_one_is_refused);
     tcase_add_test(all, tallies_add);
     suite_add_tcase(suite, all);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
+    return run_suite(suite);
 }

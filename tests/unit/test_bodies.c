@@ -3,6 +3,7 @@
 // and instructions find them, proposals that are what they say, sentences for what it cannot do.
 #include "bodies_scenes.h"
 #include "reference_bodies.h"
+#include "suite.h"
 
 #include "base/constants.h"
 #include "dmc/bodies_move.h"
@@ -453,9 +454,5 @@ int main(void) {
     tcase_add_test(cases, a_free_body_moves_as_its_amplitudes_say);
     tcase_add_test(cases, what_cannot_be_done_is_said);
     suite_add_tcase(suite, cases);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bond-orientational order of lattices, whose values are known, and of ideal gases.
 #include "observe.h"
+#include "suite.h"
 
 // `edge` cells along each axis, each with the places of a basis in units of the cell.
 typedef struct Lattice {
@@ -158,9 +159,5 @@ int main(void) {
     tcase_add_loop_test(c, global_order_of_a_gas_falls_with_its_number, 0, 2);
     tcase_add_test(c, it_agrees_with_its_slow_twin);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return run_suite(suite);
 }

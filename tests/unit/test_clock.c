@@ -6,6 +6,7 @@
 #include "dmc/dmc.h"
 #include "dmc/predict.h"
 #include "observe.h"
+#include "suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -321,9 +322,5 @@ int main(void) {
     tcase_add_loop_test(unit, free_bodies_diffuse_in_time, 0, sizeof cases / sizeof *cases);
     tcase_add_loop_test(unit, slices_and_resumes_change_no_bit, 0, 3);
     suite_add_tcase(suite, unit);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return run_suite(suite);
 }

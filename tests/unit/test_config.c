@@ -2,6 +2,7 @@
 // Run files and plans: what is written reads back equal, what is left out gets its default, what
 // differs is told. Broken run files are in tests/cli/.
 #include "observe.h"
+#include "suite.h"
 
 #include "config/config.h"
 #include "results/results.h"
@@ -545,9 +546,5 @@ int main(void) {
     tcase_add_test(cases, what_no_single_value_shows_is_told_at_once_too);
     tcase_add_test(cases, of_many_slips_the_first_ten_are_told);
     suite_add_tcase(suite, cases);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

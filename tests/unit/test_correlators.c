@@ -2,6 +2,7 @@
 // Correlation functions of a random walk across the edges of the box, against slow twins that go
 // through all frames, all particles and all vectors with the C library's own functions.
 #include "observe.h"
+#include "suite.h"
 
 #include "analysis/analysis.h"
 #include "base/constants.h"
@@ -656,9 +657,5 @@ int main(void) {
     tcase_add_test(c, what_cannot_be_correlated_is_refused_with_a_sentence);
     tcase_add_test(c, lags_that_end_after_the_stage_are_told);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CRC-32C against the answers of RFC 3720, appendix B.4, and against a bit-by-bit twin.
+#include "suite.h"
+
 #include "base/crc32c.h"
 
 #include <check.h>
@@ -57,9 +59,5 @@ int main(void) {
     tcase_add_loop_test(tests, any_length_and_any_split_is_the_bit_by_bit_remainder, 0, 2);
     Suite *suite = suite_create("crc32c");
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

@@ -9,6 +9,7 @@
 #include "packing/packing.h"
 
 #include "observe.h"
+#include "suite.h"
 
 #include <stdlib.h>
 
@@ -433,9 +434,5 @@ int main(void) {
     tcase_add_loop_test(bits, the_origin_of_time_changes_no_bit, 0, 3);
     suite_add_tcase(suite, exact);
     suite_add_tcase(suite, bits);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

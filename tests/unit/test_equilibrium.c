@@ -3,6 +3,7 @@
 #include "analysis/analysis.h"
 #include "config/config.h"
 #include "observe.h"
+#include "suite.h"
 
 #include "base/memory.h"
 
@@ -192,9 +193,5 @@ int main(void) {
     tcase_add_test(c, a_drifting_glass_stands_still_about_its_centre);
     tcase_add_test(c, without_measurements_nothing_is_said);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return run_suite(suite);
 }

@@ -4,6 +4,7 @@
 // as Efron has it, from the spread of what was found.
 #include "analysis/analysis.h"
 #include "observe.h"
+#include "suite.h"
 #include "rng/rng.h"
 
 enum { REPLICAS = 5, LAGS = 61, WAVES = 2, STATES = 6, NOBODY = -1 };
@@ -288,9 +289,5 @@ int main(void) {
     tcase_add_test(c, errors_of_a_plateau_are_those_of_a_slow_twin);
     tcase_add_test(c, errors_of_the_power_law_are_those_of_a_slow_twin);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return run_suite(suite);
 }

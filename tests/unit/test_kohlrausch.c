@@ -2,6 +2,7 @@
 // Relaxation times and Kohlrausch's law from decays whose law is known.
 #include "analysis/analysis.h"
 #include "observe.h"
+#include "suite.h"
 
 #include "rng/rng.h"
 
@@ -245,9 +246,5 @@ int main(void) {
     tcase_add_test(c, a_factor_of_time_is_found);
     tcase_add_test(c, times_are_compared_at_the_same_wave_number_only);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return run_suite(suite);
 }

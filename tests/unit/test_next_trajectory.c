@@ -4,6 +4,7 @@
 #include "dmc/dmc.h"
 #include "edbd/edbd.h"
 #include "observe.h"
+#include "suite.h"
 #include "propagator/tracer.h"
 
 #include <check.h>
@@ -202,9 +203,5 @@ int main(void) {
     tcase_add_test(unit, no_room_is_told);
     tcase_add_test(unit, chance_of_room_is_that_of_theory);
     suite_add_tcase(suite, unit);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return run_suite(suite);
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The shared mathematics against exact values.
+#include "suite.h"
+
 #include "numerics/fit.h"
 #include "numerics/pade.h"
 #include "numerics/symmetric.h"
@@ -180,9 +182,5 @@ int main(void) {
     tcase_add_test(c, eigenvectors_of_symmetric_matrices_are_found);
     tcase_add_test(c, eigenvalues_known_beforehand_are_found);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

@@ -2,6 +2,7 @@
 // Observers on states made by hand, whose answer is known: ideal gases, straight flights, random
 // walks, lattices; and slow twins that look at every pair and every vector.
 #include "observe.h"
+#include "suite.h"
 
 #include "base/constants.h"
 #include "observables/density_modes.h"
@@ -826,9 +827,5 @@ static Suite *suite(void) {
 }
 
 int main(void) {
-    SRunner *runner = srunner_create(suite());
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite());
 }

@@ -2,6 +2,7 @@
 // Observers of body axes on distributions whose order is known, and on free rotors that walk in
 // this file, step by step, by exact rules.
 #include "observe.h"
+#include "suite.h"
 
 #include "base/constants.h"
 
@@ -403,9 +404,5 @@ int main(void) {
     tcase_add_test(c, a_body_turned_over_is_seen_by_the_first_polynomial_only);
     tcase_add_test(c, bodies_without_an_axis_have_no_orientation);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

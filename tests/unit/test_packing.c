@@ -6,6 +6,7 @@
 
 #include "base/constants.h"
 #include "observe.h"
+#include "suite.h"
 
 static const RngKey KEY = {.seed = 3};
 
@@ -325,9 +326,5 @@ int main(void) {
     tcase_add_test(packing, soft_spheres_begin_apart);
     tcase_add_test(packing, bodies_that_cannot_be_packed_are_refused_in_a_sentence);
     suite_add_tcase(suite, packing);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

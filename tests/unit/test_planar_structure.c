@@ -2,6 +2,7 @@
 // Structure on the plane of flow and gradient: pictures and cuts of S(q), pair distributions by
 // direction, against slow twins that go through all vectors, all particles and all pairs.
 #include "observe.h"
+#include "suite.h"
 
 #include "base/constants.h"
 #include "observables/labels.h"
@@ -280,9 +281,5 @@ int main(void) {
     tcase_add_loop_test(tests, angles_add_up_to_the_mean_over_directions, 0, 2);
     tcase_add_test(tests, pairs_along_the_falling_diagonal_are_seen_there);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

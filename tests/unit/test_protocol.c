@@ -3,6 +3,7 @@
 // predicted: particles drift by one ten-thousandth of an edge per tick. So the seams themselves are
 // tested.
 #include "observe.h"
+#include "suite.h"
 
 #include "base/memory.h"
 #include "protocol/replica.h"
@@ -460,9 +461,5 @@ int main(void) {
     tcase_add_test(all, a_stage_lasts_a_whole_number_of_steps);
     tcase_add_test(all, what_cannot_be_is_said);
     suite_add_tcase(suite, all);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
+    return run_suite(suite);
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Quadrature, small matrices and fixed points against exact values.
+#include "suite.h"
+
 #include "numerics/anderson.h"
 #include "numerics/quadrature.h"
 #include "numerics/small.h"
@@ -58,9 +60,5 @@ int main(void) {
     tcase_add_test(tests, positive_matrices_are_known_by_their_eigenvalues);
     tcase_add_test(tests, mixing_solves_what_iteration_cannot);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

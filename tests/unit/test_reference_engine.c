@@ -2,6 +2,7 @@
 // The slow twin as physics, before anything is measured by it: exact collisions, conservation laws,
 // no overlap, its two ways of searching against each other, and the equation of state.
 #include "reference_engine.h"
+#include "suite.h"
 
 #include "base/constants.h"
 
@@ -296,9 +297,5 @@ int main(void) {
     tcase_add_test(all, cells_find_the_collisions_that_all_pairs_find);
     tcase_add_test(all, the_pressure_is_that_of_the_equation_of_state);
     suite_add_tcase(suite, all);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

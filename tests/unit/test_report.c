@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What people and machines read: notation of errors, names, JSON, CSV, and the page.
+#include "suite.h"
+
 #include "report/figure.h"
 #include "report/files.h"
 #include "report/gnuplot.h"
@@ -669,9 +671,5 @@ int main(void) {
     tcase_set_timeout(tests, 60); // gnuplot on a busy machine
     Suite *suite = suite_create("report");
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Results: named numbers and arrays, one slot per replica, with mean and standard error.
+#include "suite.h"
+
 #include "results/results.h"
 
 #include <check.h>
@@ -173,9 +175,5 @@ int main(void) {
     tcase_add_test(tests, what_is_above_its_limit_or_no_number_is_not_healthy);
     Suite *suite = suite_create("results");
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

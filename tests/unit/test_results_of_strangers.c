@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // results.h5 from people who mean harm: files with a right seal and wrong HDF5 inside. Reading one
 // ends in a sentence, or in results, and never in a crash, a hang, or the contents of other files.
+#include "suite.h"
+
 #include "base/crc32c.h"
 #include "base/memory.h"
 #include "store/store.h"
@@ -281,9 +283,5 @@ int main(void) {
     tcase_add_test(tests, any_bytes_changed_under_a_right_seal_do_no_harm);
     Suite *suite = suite_create("strangers");
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Random numbers: known answers of the generators, equal bits on every instruction set, and the
 // numbers against the exact distributions. Fixed seeds; bounds are of probability 1e-6 or less.
+#include "suite.h"
+
 #include "base/memory.h"
 #include "rng/normals.h"
 #include "rng/rng.h"
@@ -522,9 +524,5 @@ int main(void) {
     tcase_add_test(all, every_instruction_set_gives_the_same_words);
     tcase_add_test(all, words_are_even_and_independent);
     suite_add_tcase(suite, all);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

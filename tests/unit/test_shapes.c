@@ -2,6 +2,8 @@
 // Overlaps of bodies: every degenerate case by hand, random and adversarial pairs against slow
 // twins that go another way in long double, second virial coefficients by integration. Long mode:
 // PERRIN_SHAPE_PAIRS=1e7 pairs instead of 2e5.
+#include "suite.h"
+
 #include "base/constants.h"
 #include "rng/rng.h"
 #include "shapes/diffusion.h"
@@ -415,9 +417,5 @@ int main(void) {
     tcase_add_test(cases, second_virial_coefficients_are_half_the_excluded_volumes);
     tcase_add_test(cases, rods_diffuse_as_slender_bodies);
     suite_add_tcase(suite, cases);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

@@ -5,6 +5,7 @@
 #include "propagator/drive.h"
 
 #include "observe.h"
+#include "suite.h"
 #include "rng/rng.h"
 
 #include <stdlib.h>
@@ -183,9 +184,5 @@ int main(void) {
     tcase_add_test(all, mean_rates_add_up_to_the_strain);
     tcase_add_test(all, a_drive_that_is_not_whole_is_refused);
     suite_add_tcase(suite, all);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

@@ -2,6 +2,7 @@
 // Observers of a random walk in a flow that tilts the box by several whole turns, against slow
 // twins that know only where every particle is, unfolded, and what the strain is.
 #include "observe.h"
+#include "suite.h"
 
 #include "base/constants.h"
 #include "observables/lags.h"
@@ -452,9 +453,5 @@ int main(void) {
     tcase_add_test(tests, a_waiting_strain_needs_a_steady_rate);
     tcase_add_test(tests, the_settings_of_every_observable_have_room);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

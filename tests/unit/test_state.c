@@ -2,6 +2,7 @@
 // What a State promises of bodies: axes of length 1 that a checkpoint carries, overlaps that the
 // health check finds as all pairs do.
 #include "observe.h"
+#include "suite.h"
 #include "shapes/overlap.h"
 
 static const RngKey KEY = {.seed = 11};
@@ -182,9 +183,5 @@ int main(void) {
     tcase_add_test(state, depths_of_bodies_are_what_they_are_said_to_be);
     tcase_add_loop_test(state, cells_find_the_bodies_that_overlap, 0, 3);
     suite_add_tcase(suite, state);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }

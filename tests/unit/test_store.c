@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The store: what is written is read back, what is damaged is refused in a sentence, and nobody
 // writes over anybody. Each test works in a directory of its own.
+#include "suite.h"
+
 #include "base/memory.h"
 #include "store/checkpoint.h"
 #include "store/store.h"
@@ -710,9 +712,5 @@ int main(void) {
     tcase_add_test(tests, a_trajectory_of_a_stranger_or_cut_off_is_refused);
     Suite *suite = suite_create("store");
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+    return run_suite(suite);
 }

@@ -4,6 +4,7 @@
 #include "analysis/derive.h"
 #include "base/constants.h"
 #include "observe.h"
+#include "suite.h"
 
 static const RngKey KEY = {.seed = 5};
 
@@ -343,9 +344,5 @@ static Suite *suite(void) {
 }
 
 int main(void) {
-    SRunner *runner = srunner_create(suite());
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite());
 }

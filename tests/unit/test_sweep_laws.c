@@ -2,6 +2,7 @@
 // Laws of a sweep over packing fractions from tables whose law is known.
 #include "analysis/analysis.h"
 #include "observe.h"
+#include "suite.h"
 #include "rng/rng.h"
 
 #include <stdio.h>
@@ -271,9 +272,5 @@ int main(void) {
     tcase_add_test(c, a_yield_stress_is_found_and_its_absence);
     tcase_add_test(c, a_yield_stress_has_the_error_it_says);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return run_suite(suite);
 }

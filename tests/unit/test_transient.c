@@ -4,6 +4,7 @@
 // the flow.
 #include "analysis/analysis.h"
 #include "observe.h"
+#include "suite.h"
 
 enum { REPLICAS = 4, LAGS = 101, WAITS = 3 };
 static const double RATE = 0.1;
@@ -271,9 +272,5 @@ int main(void) {
     tcase_add_test(tests, an_unsteady_flow_is_not_taken_for_rest);
     tcase_add_test(tests, a_compressed_exponential_is_found);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return run_suite(suite);
 }
