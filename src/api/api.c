@@ -45,7 +45,8 @@ static Status wrap_plan(perrin_plan **out, Plan *plan) {
     return OK;
 }
 
-static Status read_plan(perrin_plan **out, const char *path, const char *const *settings) {
+int perrin_plan_read(perrin_plan **out, const char *path, const char *const *settings) {
+    IN_PLAIN_LOCALE;
     ConfigOverrides overrides = {.settings = settings};
     while (settings && settings[overrides.count]) overrides.count++;
     Plan *plan = NULL;
@@ -53,24 +54,11 @@ static Status read_plan(perrin_plan **out, const char *path, const char *const *
     return wrap_plan(out, plan);
 }
 
-int perrin_plan_read(perrin_plan **out, const char *path, const char *const *settings) {
-    const PlainLocale locale = plain_locale_enter();
-    const Status status = read_plan(out, path, settings);
-    plain_locale_leave(locale);
-    return status;
-}
-
-static Status parse_plan(perrin_plan **out, const char *name, const char *text) {
+int perrin_plan_parse(perrin_plan **out, const char *name, const char *text) {
+    IN_PLAIN_LOCALE;
     Plan *plan = NULL;
     TRY(config_read_text(&plan, name, text, strlen(text), NULL));
     return wrap_plan(out, plan);
-}
-
-int perrin_plan_parse(perrin_plan **out, const char *name, const char *text) {
-    const PlainLocale locale = plain_locale_enter();
-    const Status status = parse_plan(out, name, text);
-    plain_locale_leave(locale);
-    return status;
 }
 
 void perrin_plan_free(perrin_plan *plan) {
@@ -79,8 +67,9 @@ void perrin_plan_free(perrin_plan *plan) {
     memory_free(plan);
 }
 
-static Status start_run(perrin_run **out, const perrin_plan *plan, const char *directory,
-                        int threads) {
+int perrin_run_start(perrin_run **out, const perrin_plan *plan, const char *directory,
+                     int threads) {
+    IN_PLAIN_LOCALE;
     perrin_run *run = NULL;
     TRY(NEW(run));
     const SessionWishes wishes = {.directory = directory, .threads = threads};
@@ -91,14 +80,6 @@ static Status start_run(perrin_run **out, const perrin_plan *plan, const char *d
     }
     *out = run;
     return OK;
-}
-
-int perrin_run_start(perrin_run **out, const perrin_plan *plan, const char *directory,
-                     int threads) {
-    const PlainLocale locale = plain_locale_enter();
-    const Status status = start_run(out, plan, directory, threads);
-    plain_locale_leave(locale);
-    return status;
 }
 
 double perrin_run_progress(const perrin_run *run) {
@@ -121,7 +102,8 @@ static Status wrap_results(perrin_results **out, Results *results) {
     return OK;
 }
 
-static Status finish_run(perrin_run *run, perrin_results **out) {
+int perrin_run_finish(perrin_run *run, perrin_results **out) {
+    IN_PLAIN_LOCALE;
     Results *results = NULL;
     const char *note = NULL;
     const Status status = session_finish(run->session, &results, &note);
@@ -136,24 +118,11 @@ static Status finish_run(perrin_run *run, perrin_results **out) {
     return wrapped != OK ? wrapped : status;
 }
 
-int perrin_run_finish(perrin_run *run, perrin_results **out) {
-    const PlainLocale locale = plain_locale_enter();
-    const Status status = finish_run(run, out);
-    plain_locale_leave(locale);
-    return status;
-}
-
-static Status read_results(perrin_results **out, const char *path) {
+int perrin_results_read(perrin_results **out, const char *path) {
+    IN_PLAIN_LOCALE;
     Results *results = NULL;
     TRY(store_read_results(&results, path));
     return wrap_results(out, results);
-}
-
-int perrin_results_read(perrin_results **out, const char *path) {
-    const PlainLocale locale = plain_locale_enter();
-    const Status status = read_results(out, path);
-    plain_locale_leave(locale);
-    return status;
 }
 
 void perrin_results_free(perrin_results *results) {

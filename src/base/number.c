@@ -42,9 +42,8 @@ static bool is_zero(const char *decimal) {
 
 bool number_read(const char *text, double *value) {
     if (!is_decimal(text)) return false;
-    const PlainLocale plain = plain_locale_enter();
+    IN_PLAIN_LOCALE;
     const double read = strtod(text, NULL); // correctly rounded by the C library
-    plain_locale_leave(plain);
     if (!isfinite(read) || (read == 0 && !is_zero(text))) return false;
     *value = read;
     return true;
@@ -90,11 +89,10 @@ const char *number_write(char out[NUMBER_SIZE], double value) {
         snprintf(out, NUMBER_SIZE, "%s", isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
         return out;
     }
-    const PlainLocale plain = plain_locale_enter();
+    IN_PLAIN_LOCALE;
     for (int behind = 0; behind < 17; behind++) {
         print_real(out, value, behind);
         if (strtod(out, NULL) == value) break;
     }
-    plain_locale_leave(plain);
     return out;
 }

@@ -7,7 +7,7 @@ PlainLocale plain_locale_enter(void) {
     return (PlainLocale){.before = uselocale(plain), .plain = plain};
 }
 
-void plain_locale_leave(PlainLocale locale) {
-    uselocale(locale.before);
-    if (locale.plain) freelocale(locale.plain);
+void plain_locale_leave(PlainLocale *locale) {
+    uselocale(locale->before);
+    if (locale->plain) freelocale(locale->plain);
 }

@@ -9,5 +9,10 @@ typedef struct PlainLocale {
     locale_t before, plain;
 } PlainLocale;
 
+// From here to the end of the block.
+#define IN_PLAIN_LOCALE                                                                            \
+    __attribute__((cleanup(plain_locale_leave), unused)) PlainLocale plain_locale =                \
+        plain_locale_enter()
+
 PlainLocale plain_locale_enter(void);
-void plain_locale_leave(PlainLocale locale);
+void plain_locale_leave(PlainLocale *locale);

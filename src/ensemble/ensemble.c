@@ -89,13 +89,12 @@ static bool work_on_one(Ensemble *ensemble) {
 
 static void *work(void *argument) {
     Ensemble *ensemble = argument;
-    const PlainLocale locale = plain_locale_enter();
+    IN_PLAIN_LOCALE;
     for (bool more = true; more;) {
         slots_take(ensemble->slots);
         more = work_on_one(ensemble);
         slots_give(ensemble->slots);
     }
-    plain_locale_leave(locale);
     atomic_fetch_sub(&ensemble->threads_left, 1);
     return NULL;
 }
