@@ -26,7 +26,6 @@ Status engine_advance(Engine *engine, int64_t windows, Tally *tally);
 
 // Diameters are `scale` times those of the state, and grow by `rate` of those per unit of time.
 void engine_grow(Engine *engine, double scale, double rate);
-double engine_scale(const Engine *engine);
 
 // The flow v_x = rate y, whose rate in each step is the mean over that step.
 typedef struct EngineFlow {

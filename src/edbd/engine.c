@@ -232,10 +232,6 @@ void engine_grow(Engine *engine, double scale, double rate) {
     engine->growth = rate;
 }
 
-double engine_scale(const Engine *engine) {
-    return engine->scale;
-}
-
 void engine_record(Engine *engine, CollisionLog *log) {
     engine->log = log;
 }

@@ -52,10 +52,12 @@ typedef struct NeighbourList {
 
     size_t pairs; // padded to whole blocks with a pair that never meets
     size_t pair_capacity;
-    uint32_t *first, *second;         // [pairs] where their sketches begin, in the order of `first`
-    uint32_t *pair_start;             // [slots + 1] first pair of each
-    float *pair_contact2;             // [pairs] square of the contact distance at scale 1
-    uint32_t *hit_first, *hit_second; // [pairs] room for those that may meet in a window
+    uint32_t *first, *second; // [pairs] where their sketches begin, in the order of `first`
+    uint32_t *pair_start;     // [slots + 1] first pair of each
+    float *pair_contact2;     // [pairs] square of the contact distance at scale 1
+    // Room for those that may meet: [pairs] of a window, and [2 pairs] of the first after
+    // collisions.
+    uint32_t *hit_first, *hit_second;
 
     bool pruned;
     size_t near; // the half list that is used, borrowed: the pruned one or all of it

@@ -6,151 +6,19 @@
 // at s that changes v by k changes X by -k s, so no particle needs a clock of its own.
 #pragma once
 
+#include "edbd/calendar.h"
 #include "edbd/engine.h"
+#include "edbd/fetch.h"
 #include "edbd/lanes.h"
 #include "edbd/list_kernel.h"
+#include "edbd/pairs.h"
 #include "edbd/sketch.h"
 
 #include <string.h>
 
 static const uint32_t COLLISIONS_MOST = 1000; // of one particle in one window: it hangs
 static const double CONTACT_DEPTH = 1e-12;    // deeper overlaps at a collision are counted
-static const uint32_t FETCH_STEP = 32;        // buckets between the steps of fetching ahead
 static const uint32_t MEMBER = 1u << 24;      // codes of neighbours of one collision of a batch
-
-// Diameters at time s of the window: scale(s) = scale + rate s.
-typedef struct Growth {
-    double scale, rate;
-} Growth;
-
-// Four particles: virtual origins and velocities.
-typedef struct Movers {
-    Quad place[3], velocity[3];
-} Movers;
-
-// The gaps of four pairs as time goes on: r^2 - contact^2 = c + 2 b t + a t^2.
-typedef struct Gap {
-    Quad a, b, c;
-} Gap;
-
-KERNEL Movers movers_at(const int dimension, const Engine *engine, const uint32_t slot[4]) {
-    Movers movers;
-    for (int a = 0; a < dimension; a++) {
-        movers.place[a] = quads_gather(engine->now.place[a], slot);
-        movers.velocity[a] = quads_gather(engine->now.velocity[a], slot);
-    }
-    return movers;
-}
-
-// From particles to the nearest images of others: of their virtual origins, and of velocities.
-// Of images across the edges of y, those of a sheared box move (Weysser, thesis, eqs. 2.12 to 2.14,
-// with the whole strain in place of that since the last step).
-KERNEL void separate(const int dimension, const int flight, const Engine *engine, const Movers *i,
-                     const Movers *j, Quad r[3], Quad v[3]) {
-    for (int a = 0; a < dimension; a++) {
-        r[a] = i->place[a] - j->place[a];
-        v[a] = i->velocity[a] - j->velocity[a];
-    }
-    if (flight == SHEARED) {
-        const double half = engine->edge[1] / 2;
-        const QuadBits above = r[1] > half, below = r[1] < -half;
-        r[0] = quads_choose(above, r[0] - engine->offset,
-                            quads_choose(below, r[0] + engine->offset, r[0]));
-        v[0] = quads_choose(above, v[0] - engine->image_velocity,
-                            quads_choose(below, v[0] + engine->image_velocity, v[0]));
-    }
-    for (int a = 0; a < dimension; a++) {
-        const double edge = engine->edge[a];
-        r[a] = quads_choose(r[a] > edge / 2, r[a] - edge,
-                            quads_choose(r[a] < -edge / 2, r[a] + edge, r[a]));
-    }
-}
-
-KERNEL Quad contact_of(const Engine *engine, const uint32_t i[4], const uint32_t j[4]) {
-    return quads_gather(engine->radius, i) + quads_gather(engine->radius, j);
-}
-
-// From times s on.
-KERNEL Gap gap_of(const int dimension, const int flight, const Engine *engine, const uint32_t i[4],
-                  const uint32_t j[4], Quad s, Growth growth) {
-    const Movers first = movers_at(dimension, engine, i), second = movers_at(dimension, engine, j);
-    Quad r[3], v[3], r2 = {0}, rv = {0}, v2 = {0};
-    separate(dimension, flight, engine, &first, &second, r, v);
-    for (int a = 0; a < dimension; a++) {
-        const Quad x = r[a] + v[a] * s;
-        r2 = a == 0 ? x * x : r2 + x * x;
-        rv = a == 0 ? x * v[a] : rv + x * v[a];
-        v2 = a == 0 ? v[a] * v[a] : v2 + v[a] * v[a];
-    }
-    const Quad contact = contact_of(engine, i, j), contact2 = contact * contact;
-    if (flight != GROWING) return (Gap){.a = v2, .b = rv, .c = r2 - contact2};
-    const Quad scale = growth.scale + growth.rate * s;
-    return (Gap){.a = v2 - contact2 * (growth.rate * growth.rate),
-                 .b = rv - contact2 * (scale * growth.rate),
-                 .c = r2 - contact2 * (scale * scale)};
-}
-
-// Does it close within `left`? Pairs that approach, and either overlap by then or have passed
-// through a real contact before. A pair that overlaps already and approaches meets now; one that
-// overlaps and recedes is left to do so. With growth a pair may also meet without approaching.
-KERNEL QuadBits gap_closes(const int flight, const Gap *gap, Quad left) {
-    const Quad end = gap->b + gap->a * left;
-    const QuadBits approaching = gap->b < 0;
-    const QuadBits overlaps = gap->c + left * (gap->b + end) < 0;
-    const QuadBits turned = (0 < end) & (gap->a * gap->c < gap->b * gap->b);
-    if (flight != GROWING) return approaching & (overlaps | turned);
-    return (approaching | (0 < gap->c)) & (overlaps | (turned & approaching));
-}
-
-// How long until a closing gap is closed; this form of the root does not cancel.
-KERNEL Quad gap_time(const Gap *gap) {
-    const Quad zero = {0}, square = gap->b * gap->b - gap->a * gap->c;
-    const Quad root = quads_sqrt(quads_choose(square > 0, square, zero));
-    const Quad time = gap->c / (root - gap->b);
-    return quads_choose(time > 0, time, zero);
-}
-
-// When do four pairs meet, from times s on? INFINITY: not in this window.
-KERNEL Quad meeting_times(const int dimension, const int flight, const Engine *engine,
-                          const uint32_t i[4], const uint32_t j[4], Quad s, Growth growth) {
-    const Gap gap = gap_of(dimension, flight, engine, i, j, s, growth);
-    const QuadBits closes = gap_closes(flight, &gap, engine->settings.window - s);
-    const Quad never = {INFINITY, INFINITY, INFINITY, INFINITY};
-    return quads_choose(closes, s + gap_time(&gap), never);
-}
-
-KERNEL uint32_t bucket_at(const Engine *engine, double time) {
-    const double slice = time * engine->buckets_per_time;
-    const uint32_t last = engine->buckets - 1;
-    return slice < last ? (uint32_t)slice : last;
-}
-
-// Buckets that hold somebody have their bit set; the heads of others mean nothing.
-KERNEL void event_link(Engine *engine, uint32_t number) {
-    Event *event = &engine->events[number];
-    const uint32_t b = bucket_at(engine, event->time);
-    const uint64_t there = engine->occupied[b / BITS];
-    event->next = engine->bucket[b] | (there >> b % BITS & 1 ? 0 : NO_EVENT);
-    engine->occupied[b / BITS] = there | (uint64_t)1 << b % BITS;
-    engine->bucket[b] = number;
-}
-
-KERNEL void event_put(Engine *engine, double time, uint32_t first, uint32_t second) {
-    if (engine->events_used == engine->event_capacity) {
-        engine->outgrown = 1;
-        return;
-    }
-    const uint32_t number = engine->events_used++;
-    engine->events[number] = (Event){.time = time,
-                                     .first = first,
-                                     .second = second,
-                                     .stamps = engine->stamp[first] + engine->stamp[second]};
-    event_link(engine, number);
-}
-
-KERNEL void event_drop(Engine *engine, uint32_t *link) {
-    *link = engine->events[*link].next;
-}
 
 // Pairs become events if they meet in the window.
 KERNEL void predict_hits(const int dimension, const int flight, Engine *engine, Growth growth,
@@ -348,107 +216,6 @@ KERNEL void count_collision(const int dimension, Engine *engine, const Batch *ba
     if (engine->stamp[event->first] > COLLISIONS_MOST ||
         engine->stamp[event->second] > COLLISIONS_MOST)
         engine->hung = 1;
-}
-
-KERNEL int event_is_void(const Engine *engine, const Event *event) {
-    return event->stamps != engine->stamp[event->first] + engine->stamp[event->second];
-}
-
-// (time, lower id, higher id): an order that memory has no part in.
-KERNEL int event_before(const Engine *engine, const Event *a, const Event *b) {
-    if (a->time != b->time) return a->time < b->time;
-    const uint32_t p = engine->id[a->first], q = engine->id[a->second];
-    const uint32_t s = engine->id[b->first], t = engine->id[b->second];
-    const uint32_t low_a = p < q ? p : q, low_b = s < t ? s : t;
-    if (low_a != low_b) return low_a < low_b;
-    return (p < q ? q : p) < (s < t ? t : s);
-}
-
-// The link to the earliest event of a bucket that still stands, or NULL. Void ones are dropped if
-// they are so for good.
-KERNEL uint32_t *earliest(Engine *engine, uint32_t *bucket, int for_good) {
-    uint32_t *best = NULL;
-    for (uint32_t *link = bucket; *link != NO_EVENT;) {
-        const Event *event = &engine->events[*link];
-        const int is_void = event_is_void(engine, event);
-        if (is_void && for_good) {
-            event_drop(engine, link);
-            continue;
-        }
-        if (!is_void && (!best || event_before(engine, event, &engine->events[*best]))) best = link;
-        link = &engine->events[*link].next;
-    }
-    return best;
-}
-
-// Asks memory for a line that is soon needed.
-KERNEL void fetch(const void *line) {
-    __builtin_prefetch(line);
-}
-
-// All of a particle that a collision reads, but whom it has for neighbours.
-KERNEL void fetch_particle(const int dimension, const Engine *engine, uint32_t slot) {
-    for (int a = 0; a < dimension; a++) {
-        fetch(engine->now.place[a] + slot);
-        fetch(engine->now.velocity[a] + slot);
-        fetch(engine->list.anchor[a] + slot);
-    }
-    fetch(engine->radius + slot);
-    fetch(engine->mass + slot);
-    fetch(engine->stamp + slot);
-    fetch(engine->sketch + (size_t)slot * (dimension == 2 ? ROW_2D : ROW_3D));
-    fetch(engine->list.start + slot);
-}
-
-KERNEL void fetch_neighbours(const Engine *engine, uint32_t slot) {
-    const uint32_t *start = engine->list.start + slot;
-    for (uint32_t n = start[0]; n < start[1]; n += HALF_BLOCK) {
-        fetch(engine->list.blocks + n / HALF_BLOCK);
-    }
-}
-
-// The first bucket from b on that holds somebody, or `end`.
-KERNEL uint32_t occupied_from(const Engine *engine, uint32_t b, uint32_t end) {
-    while (b < end) {
-        const uint64_t bits = engine->occupied[b / BITS] >> b % BITS;
-        if (bits) {
-            b += (uint32_t)__builtin_ctzll(bits);
-            return b < end ? b : end;
-        }
-        b = (b / BITS + 1) * BITS;
-    }
-    return end;
-}
-
-// What the events of a bucket need, in three steps, each of which reads what the last fetched.
-KERNEL void fetch_bucket(const int dimension, const Engine *engine, uint32_t b, int step) {
-    const Event *events = engine->events;
-    if (step == 0) {
-        fetch(events + engine->bucket[b]);
-        return;
-    }
-    for (uint32_t e = engine->bucket[b]; e != NO_EVENT; e = events[e].next) {
-        const uint32_t slots[2] = {events[e].first, events[e].second};
-        for (int p = 0; p < 2; p++) {
-            if (step == 1)
-                fetch_particle(dimension, engine, slots[p]);
-            else
-                fetch_neighbours(engine, slots[p]);
-        }
-    }
-}
-
-// Neighbours in time are anywhere in space, and what they need in memory: asked for some buckets
-// ahead, it is near when its turn comes. Buckets from b to `end` have been seen to.
-KERNEL void fetch_ahead(const int dimension, const Engine *engine, uint32_t b, uint32_t end) {
-    if (end + 3 * FETCH_STEP > engine->buckets) return;
-    for (int step = 0; step < 3; step++) {
-        const uint32_t ahead = (uint32_t)(3 - step) * FETCH_STEP;
-        for (uint32_t at = b + ahead; (at = occupied_from(engine, at, end + ahead)) < end + ahead;
-             at++) {
-            fetch_bucket(dimension, engine, at, step);
-        }
-    }
 }
 
 // One event more, from bucket b, unless it is void. Stamps void those of its partners to come.

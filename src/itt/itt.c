@@ -309,7 +309,7 @@ bool itt_can_save(const Itt *itt) {
     return itt->step == STEP_TRANSIENTS && itt->transient;
 }
 
-static const uint64_t ITT_TAG = 0x4954543030303031; // "ITT00001"
+static const uint64_t ITT_TAG = 0x4954543030303032; // "ITT00002"
 
 static void archive_transients(Itt *itt, Archive *archive) {
     archive_tag(archive, ITT_TAG);

@@ -20,7 +20,6 @@ struct Transient {
     Kernel *kernel;
     double step;
     size_t block, now; // index of the present time in the block
-    size_t evaluations;
     Relaxation collective, tagged;
     Walk walk;
 };
@@ -38,7 +37,6 @@ static Status allocate(Transient *t) {
 static void collective_kernel(Transient *t, size_t i) {
     kernel_memory(t->kernel, relaxation_phi(&t->collective, i),
                   relaxation_memory(&t->collective, i));
-    t->evaluations++;
 }
 
 static void tagged_kernel(Transient *t, size_t i) {
@@ -195,19 +193,13 @@ double transient_displacement(const Transient *t, int direction) {
     return t->settings.tagged ? t->walk.value[direction][t->now] : NAN;
 }
 
-size_t transient_evaluations(const Transient *t) {
-    return t->evaluations;
-}
-
 void transient_archive(Transient *t, Archive *archive) {
-    uint64_t now = t->now, evaluations = t->evaluations;
+    uint64_t now = t->now;
     archive_f64(archive, &t->step, 1);
     archive_u64(archive, &now, 1);
-    archive_u64(archive, &evaluations, 1);
     archive_require(archive, t->step > 0 && now <= t->block, "its time is none of the grid");
     if (archive->status != OK) return;
     t->now = now;
-    t->evaluations = evaluations;
     relaxation_archive(&t->collective, archive);
     if (!t->settings.tagged) return;
     relaxation_archive(&t->tagged, archive);

@@ -36,7 +36,6 @@ double transient_strain(const Transient *transient);
 const double *transient_collective(const Transient *transient); // a field on the plane
 const double *transient_tagged(const Transient *transient);     // NULL if not wanted
 double transient_displacement(const Transient *transient, int direction);
-size_t transient_evaluations(const Transient *transient); // of the collective kernel
 
 // Saves all of it, or loads it into one created with the same arguments.
 void transient_archive(Transient *transient, Archive *archive);
