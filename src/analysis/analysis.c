@@ -38,6 +38,8 @@ static const struct {
     {"non_affine_displacement", .alone = derive_diffusion_across_flow, .axes_most = 3},
     {"non_affine_displacement", .alone = derive_exponent},
     {"non_affine_displacement", .alone = derive_transient},
+    {"non_affine_displacement_centred", .alone = derive_diffusion_across_flow, .axes_most = 3},
+    {"non_affine_displacement_centred", .alone = derive_exponent},
     {"advected_scattering", .alone = derive_normalised_advected},
     {"advected_scattering_normalised", .alone = derive_kohlrausch},
     {"advected_scattering_normalised", .alone = derive_transient},

@@ -84,7 +84,7 @@ static Status derive_from(Results *results, const Displacement *of, bool short_t
 static void name_curve(Displacement *of, const ResultSeries *series, size_t species,
                        const char *direction) {
     const bool named = species + 1 < series->axis[0].count;
-    const bool centred = strcmp(series->observable, "mean_squared_displacement_centred") == 0;
+    const bool centred = strstr(series->observable, "_centred") != NULL;
     snprintf(of->suffix, sizeof of->suffix, "%s%s%s%s%s", direction ? "_" : "",
              direction ? direction : "", named ? "_" : "",
              named ? series->axis[0].labels[species] : "", centred ? "_centred" : "");

@@ -100,7 +100,7 @@ static Status check(const Settings *settings_, const System *system, const Clock
     Shell shells[OPTION_LIST_SIZE];
     TRY(wave_vectors_check_rest("collective_scattering", "advected_scattering", clock));
     TRY(wave_numbers_check("collective_scattering", &settings->wave_numbers, system));
-    TRY(frame_check("collective_scattering", settings->frame, clock));
+    TRY(frame_check("collective_scattering", settings->frame, 0, clock));
     const size_t count = shells_of(settings, system, shells);
     for (size_t k = 1; k < count; k++) {
         if (shells[k].low >= shells[k - 1].high) continue;

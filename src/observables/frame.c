@@ -8,12 +8,14 @@
 
 const char *const frame_names[] = {"box", "centre-of-mass", NULL};
 
-Status frame_check(const char *observable, int64_t frame, const Clock *clock) {
+Status frame_check(const char *observable, int64_t frame, unsigned drives, const Clock *clock) {
     if (frame == FRAME_BOX || !clock->drive) return OK;
+    if (!(drive_kinds(clock->drive) & ~drives)) return OK;
     return status_fail(BAD_DATA,
-                       "%s: frame = centre-of-mass is of stages at rest, and stage '%s' is driven; "
-                       "leave it out",
-                       observable, clock->stage);
+                       "%s: frame = centre-of-mass is of stages at rest%s, and stage '%s' is "
+                       "driven%s; leave it out",
+                       observable, drives & DRIVE_FLOW ? " or in a flow" : "", clock->stage,
+                       drives & DRIVE_FLOW ? " by a force" : "");
 }
 
 void frame_centre(int64_t frame, const State *state, double centre[3]) {

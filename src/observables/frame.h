@@ -19,8 +19,9 @@ extern const char *const frame_names[]; // NULL-ended
                  "names of what is seen from there end in _centred.",                              \
     }
 
-// BAD_DATA with a sentence where a flow moves the centre.
-Status frame_check(const char *observable, int64_t frame, const Clock *clock);
+// BAD_DATA with a sentence where what drives the stage is not among `drives`, bits of DriveKind:
+// those that the observable takes from displacements as it takes them from that of the centre.
+Status frame_check(const char *observable, int64_t frame, unsigned drives, const Clock *clock);
 
 // The centre of mass of the unfolded particles; 0 in the frame of the box.
 void frame_centre(int64_t frame, const State *state, double centre[3]);

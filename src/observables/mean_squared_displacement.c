@@ -49,7 +49,7 @@ static Status check(const Settings *settings, const System *system, const Clock 
                            "'%s' is sheared; take non_affine_displacement",
                            clock->stage);
     }
-    TRY(frame_check("mean_squared_displacement", settings_in(settings)->frame, clock));
+    TRY(frame_check("mean_squared_displacement", settings_in(settings)->frame, 0, clock));
     return lags_check("mean_squared_displacement", lag_settings(settings), clock);
 }
 

@@ -4,7 +4,9 @@
 //   dx(t) = x(t_w + t) - strain y(t_w + t) - x(t_w),  dy(t) = y(t_w + t) - y(t_w),
 // the strain being that since t_w. A free particle has dx^2 = 2 D t + (2/3) D rate^2 t^3 (Taylor
 // dispersion: it has come by its last y after the flow had carried it elsewhere), dy^2 = 2 D t and
-// dx dy = -D rate t^2. At rest they are the mean squared displacements.
+// dx dy = -D rate t^2. At rest they are the mean squared displacements. They are linear in the
+// coordinates: seen from the centre of mass they lack its own non-affine displacement, that of a
+// free particle with D0/N.
 #include "base/memory.h"
 #include "observables/labels.h"
 #include "observables/motion.h"
@@ -12,12 +14,18 @@
 
 typedef struct NonAffineSettings {
     LagSettings lags;
+    int64_t frame;
 } NonAffineSettings;
 
 static const Option rows[] = {LAG_OPTIONS_OF(NonAffineSettings, lags, 10, 32),
-                              WAITING_OPTIONS(NonAffineSettings, lags)};
+                              WAITING_OPTIONS(NonAffineSettings, lags),
+                              FRAME_OPTION(NonAffineSettings, frame)};
 
 static const uint64_t NON_AFFINE_TAG = 0x4e4f4e4146463031; // "NONAFF01"
+
+static int64_t frame_of(const Settings *settings) {
+    return ((const NonAffineSettings *)settings->bytes)->frame;
+}
 
 static const LagSettings *lag_settings(const Settings *settings) {
     return &((const NonAffineSettings *)settings->bytes)->lags;
@@ -25,6 +33,7 @@ static const LagSettings *lag_settings(const Settings *settings) {
 
 static Status check(const Settings *settings, const System *system, const Clock *clock) {
     (void)system;
+    TRY(frame_check("non_affine_displacement", frame_of(settings), DRIVE_FLOW, clock));
     return lags_check("non_affine_displacement", lag_settings(settings), clock);
 }
 
@@ -63,6 +72,7 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     self->tag = NON_AFFINE_TAG;
     self->row_size = state->system.species_count * ((size_t)state->box.dimension + 1);
     self->add_row = add_row;
+    self->moves.frame = frame_of(settings);
     return motion_begin(out, self, state, &lags);
 }
 
@@ -99,8 +109,10 @@ static Status put(const Motion *self, const Labels *species, double *values, dou
                   .labels = directions[self->moves.dimension - 2]}}};
     shape.axes +=
         lags_axes(&self->moves.history.lags, &self->observer.clock, times, shape.axis + shape.axes);
-    return observer_put_series(&self->observer, "non_affine_displacement", &shape, results, replica,
-                               values);
+    const bool centred = self->moves.frame == FRAME_CENTRE_OF_MASS;
+    return observer_put_series(
+        &self->observer, centred ? "non_affine_displacement_centred" : "non_affine_displacement",
+        &shape, results, replica, values);
 }
 
 static Status write(const Observer *observer, const State *state, Results *results,

@@ -44,7 +44,7 @@ static const OverlapSettings *settings_in(const Settings *settings) {
 
 static Status check(const Settings *settings, const System *system, const Clock *clock) {
     (void)system;
-    TRY(frame_check("overlap", settings_in(settings)->frame, clock));
+    TRY(frame_check("overlap", settings_in(settings)->frame, 0, clock));
     return lags_check("overlap", &settings_in(settings)->lags, clock);
 }
 

@@ -45,6 +45,7 @@ static const FigureKind *kind_named(const char *observable, const ResultSeries *
 static const struct {
     const char *centred, *from;
 } CENTRED[] = {{"self_scattering_centred_", "self_scattering_"},
+               {"non_affine_displacement_centred_", "non_affine_displacement_"},
                {"collective_scattering_centred_", "collective_scattering_normalised_"}};
 
 static bool name_without_centre(char name[2 * RESULT_NAME], const ResultSeries *series) {

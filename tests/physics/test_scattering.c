@@ -247,6 +247,64 @@ START_TEST(the_centre_of_mass_diffuses_freely) {
 }
 END_TEST
 
+static const double RATE = 2;
+
+// In a flow, along the gradient, which no strain mixes with another direction.
+static Results *few_in_flow(int64_t frame) {
+    Plan *plan = new_plan(system_of(2, FEW, 0.6, 2), 0.05, 20, 20, 32);
+    plan->stages[1].drive.flow.rate = RATE;
+    const ObservableKind *kinds[] = {&observable_self_scattering,
+                                     &observable_non_affine_displacement};
+    for (int k = 0; k < 2; k++) {
+        Settings *settings = observe(plan, kinds[k]);
+        set_number(settings, &kinds[k]->options, "times.first", 0.0125);
+        set_number(settings, &kinds[k]->options, "times.last", 1.25);
+        set_number(settings, &kinds[k]->options, "times.per_decade", 2);
+        set_number(settings, &kinds[k]->options, "frame", (double)frame);
+    }
+    set_wave_numbers(&plan->stages[1].observations[0].settings,
+                     (OptionReals){.count = 1, .values = {3}});
+    return simulate(plan);
+}
+
+// Element of direction y at a lag, of all species together.
+static size_t along_y(const ResultSeries *series, size_t lag) {
+    const size_t lags = series->axis[series->axes - 1].count;
+    const size_t directions = series->axis[1].count;
+    return ((series->axis[0].count - 1) * directions + 1) * lags + lag;
+}
+
+// Displacements beside the flow are linear in the coordinates, so that the centre adds its own, of
+// a free particle with D0/N: 2 t/N along the gradient, and the factor exp(-q^2 t/N).
+START_TEST(in_a_flow_the_centre_of_mass_is_free_too) {
+    Results *box = few_in_flow(FRAME_BOX), *centre = few_in_flow(FRAME_CENTRE_OF_MASS);
+    static const char *const names[2][2] = {
+        {"self_scattering", "self_scattering_centred"},
+        {"non_affine_displacement", "non_affine_displacement_centred"}};
+    for (int k = 0; k < 2; k++) {
+        const ResultSeries *seen[2] = {series_of(box, "measured", names[k][0]),
+                                       series_of(centre, "measured", names[k][1])};
+        const ResultAxis *time = &seen[0]->axis[seen[0]->axes - 1];
+        for (size_t t = time->count - 3; t < time->count; t++) {
+            const double share = time->values[t] / FEW;
+            for (size_t r = 0; r < box->replicas; r++) {
+                const size_t at = r * seen[0]->size + along_y(seen[0], t);
+                const double here = seen[0]->values[at], about = seen[1]->values[at];
+                results_put_scalar(box, "measured", k ? "displaced" : "scattered", "", "", r,
+                                   k ? (here - about) / (2 * share)
+                                     : here - exp(-9 * share) * about + 1);
+            }
+            expect_within(k ? "what the centre adds to <dy^2> over 2 t/N"
+                            : "1 + what is seen from the box less what the centre leaves",
+                          measured(box, k ? "displaced" : "scattered"), 1, 0, SIGMAS,
+                          k ? 0.15 : 0.02);
+        }
+    }
+    results_free(box);
+    results_free(centre);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("scattering");
     ADD_CASE(suite, free_particles_scatter_exponentially, 1);
@@ -254,5 +312,6 @@ int main(void) {
     ADD_CASE(suite, free_particles_do_not_move_together, 1);
     ADD_CASE(suite, any_interaction_leaves_the_first_slope, 1);
     ADD_CASE(suite, the_centre_of_mass_diffuses_freely, 1);
+    ADD_CASE(suite, in_a_flow_the_centre_of_mass_is_free_too, 1);
     return run_suite(suite);
 }

@@ -335,7 +335,8 @@ START_TEST(drift_is_not_seen_from_the_centre_of_mass) {
     } looks[] = {{&observable_self_scattering, "self_scattering_centred"},
                  {&observable_collective_scattering, "collective_scattering_about_centre"},
                  {&observable_mean_squared_displacement, "mean_squared_displacement_centred"},
-                 {&observable_overlap, "overlap_square_centred"}};
+                 {&observable_overlap, "overlap_square_centred"},
+                 {&observable_non_affine_displacement, "non_affine_displacement_centred"}};
     const ObservableKind *kind = looks[_i >> 1].kind;
     const char *name = looks[_i >> 1].name;
     static const Mover movers[2] = {walk_to, walk_adrift};
@@ -646,7 +647,7 @@ int main(void) {
     tcase_add_loop_test(c, self_scattering_agrees_with_its_slow_twin, 0, 4);
     tcase_add_loop_test(c, collective_scattering_agrees_with_its_slow_twin, 0, 4);
     tcase_add_loop_test(c, collective_scattering_begins_at_the_structure_factor, 0, 2);
-    tcase_add_loop_test(c, drift_is_not_seen_from_the_centre_of_mass, 0, 8);
+    tcase_add_loop_test(c, drift_is_not_seen_from_the_centre_of_mass, 0, 10);
     tcase_add_test(c, what_a_shell_leaves_out_is_said);
     tcase_add_loop_test(c, moments_agree_with_their_slow_twin, 0, 4);
     tcase_add_loop_test(c, overlap_agrees_with_its_slow_twin, 0, 4);
