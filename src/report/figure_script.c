@@ -166,10 +166,16 @@ static void put_y_scale(Text *script, const Figure *figure) {
         text_put(script, "set logscale y\nset format y '10^{%T}'\n");
 }
 
-static void put_axes(Text *script, const Figure *figure) {
-    if (is_log_x(figure)) {
+// Marks at the ends stand beside the frame, not on it.
+static void put_x_scale(Text *script, const Figure *figure) {
+    if (is_log_x(figure))
         text_put(script, "set logscale x\nset format x '10^{%T}'\n");
-    }
+    else if (!figure_is_dense(figure))
+        text_put(script, "set autoscale xfix\nset offsets graph 0.03, graph 0.03, 0, 0\n");
+}
+
+static void put_axes(Text *script, const Figure *figure) {
+    put_x_scale(script, figure);
     put_y_scale(script, figure);
     put_x_label(script, figure);
     put_y_label(script, figure);
