@@ -173,13 +173,34 @@ static void print_equilibrium(const Plan *plan) {
     printf("\n");
 }
 
+static const double HOUR = 3600, DAY = 24 * 3600., YEAR = 365.25 * 24 * 3600;
+
 static void print_seconds(double seconds) {
     if (seconds < 100)
         printf("%.2g s", seconds);
     else if (seconds < 100 * 60)
         printf("%.3g min", seconds / 60);
+    else if (seconds < 100 * HOUR)
+        printf("%.3g h", seconds / HOUR);
+    else if (seconds < 2 * YEAR)
+        printf("%.3g days", seconds / DAY);
     else
-        printf("%.3g h", seconds / 3600);
+        printf("%.3g years", seconds / YEAR);
+}
+
+// A slip of the pen in a time, 1e6 for 1e-6, is seen here or not before the run is given up.
+static void print_slowest(const Plan *plan, double seconds) {
+    static const double LONG = 30; // days
+    size_t slowest = 0;
+    if (seconds < LONG * DAY) return;
+    for (size_t s = 1; s < plan->stage_count; s++) {
+        if (plan_stage_seconds(plan, s) > plan_stage_seconds(plan, slowest)) slowest = s;
+    }
+    printf(
+        "          warning: more than %g days, most of it for stage '%s' of %.6g %s: is that what "
+        "you want?\n",
+        LONG, plan->stages[slowest].name, stage_time(&plan->stages[slowest]),
+        plan_clock(plan, slowest).unit);
 }
 
 // The error of a standard error of n values is 1/sqrt(2 (n - 1)) of it.
@@ -210,6 +231,7 @@ static void print_cost(const Plan *plan) {
     printf(" per replica, ");
     print_seconds(seconds * ceil(replicas / cores));
     printf(" for all on %.0f cores, of motion alone\n", cores);
+    print_slowest(plan, seconds * ceil(replicas / cores));
     printf("          packing and measuring come on top: most of it where a short stage observes "
            "much\n");
 }

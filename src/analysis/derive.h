@@ -31,6 +31,8 @@ bool derive_has_rows(const ResultSeries *series, const ResultSeries *other, size
 
 // Whether a stage flows unsteadily, as its correlators tell: then nothing in it is stationary.
 bool derive_unsteady(const Results *results, const char *stage);
+// Whether a force along this direction drives the stage; NULL: along any.
+bool derive_forced(const Results *results, const char *stage, const char *direction);
 
 Status derive_diffusion(Results *results, const ResultSeries *displacement);
 Status derive_directional_diffusion(Results *results, const ResultSeries *displacement);

@@ -10,7 +10,8 @@
 //
 // The displacements of bodies with an axis, along and across the body axis and the director at the
 // time origin, have each its own: in the isotropic phase all tend to one, in the nematic those of
-// the director are the diffusion tensor. Under shear there is a coefficient across the flow: D_y.
+// the director are the diffusion tensor. Under shear there is a coefficient across the flow, D_y;
+// where a force pulls a tracer, one of each direction across the force, along which it drifts.
 #include "analysis/derive.h"
 #include "analysis/curve.h"
 #include "base/memory.h"
@@ -90,8 +91,47 @@ static void name_curve(Displacement *of, const ResultSeries *series, size_t spec
              named ? series->axis[0].labels[species] : "", centred ? "_centred" : "");
 }
 
+// Of those directions that it is asked for.
+typedef bool IsWanted(const Results *results, const char *stage, const char *direction);
+
+static Status derive_directions(Results *results, const ResultSeries *series, IsWanted *wanted,
+                                bool short_too) {
+    const size_t species = series->axis[0].count, directions = series->axis[1].count;
+    if (series->axis[2].count < CURVE_LAGS_LEAST) return OK;
+    double *weights = NULL;
+    TRY(curve_weights(&weights, &series->axis[2]));
+    Status status = OK;
+    for (size_t row = 0; status == OK && row < species * directions; row++) {
+        const char *direction = series->axis[1].labels[row % directions];
+        if (!wanted(results, series->stage, direction)) continue;
+        Displacement of = {.curve = curve_in(results, series, row, weights), .dimensions = 1};
+        name_curve(&of, series, row / directions, direction);
+        status = derive_from(results, &of, short_too);
+    }
+    memory_free(weights);
+    return status;
+}
+
+bool derive_forced(const Results *results, const char *stage, const char *direction) {
+    static const char *const DIRECTIONS[] = {"x", "y", "z"};
+    for (size_t a = 0; a < sizeof DIRECTIONS / sizeof *DIRECTIONS; a++) {
+        char name[RESULT_NAME];
+        snprintf(name, sizeof name, "force_%s", DIRECTIONS[a]);
+        if (direction && strcmp(direction, DIRECTIONS[a]) != 0) continue;
+        if (results_find_scalar(results, stage, name)) return true;
+    }
+    return false;
+}
+
+// Along the force it drifts, and so does the sum over directions.
+static bool across_force(const Results *results, const char *stage, const char *direction) {
+    return strcmp(direction, "total") != 0 && !derive_forced(results, stage, direction);
+}
+
 Status derive_diffusion(Results *results, const ResultSeries *series) {
     const size_t species = series->axis[0].count, directions = series->axis[1].count;
+    if (derive_forced(results, series->stage, NULL))
+        return derive_directions(results, series, across_force, true);
     if (series->axis[2].count < CURVE_LAGS_LEAST) return OK;
     double *weights = NULL;
     TRY(curve_weights(&weights, &series->axis[2]));
@@ -107,35 +147,18 @@ Status derive_diffusion(Results *results, const ResultSeries *series) {
     return status;
 }
 
-// Of those directions that it is asked for.
-static Status derive_directions(Results *results, const ResultSeries *series,
-                                bool (*wanted)(const char *direction)) {
-    const size_t species = series->axis[0].count, directions = series->axis[1].count;
-    if (series->axis[2].count < CURVE_LAGS_LEAST) return OK;
-    double *weights = NULL;
-    TRY(curve_weights(&weights, &series->axis[2]));
-    Status status = OK;
-    for (size_t row = 0; status == OK && row < species * directions; row++) {
-        if (!wanted(series->axis[1].labels[row % directions])) continue;
-        Displacement of = {.curve = curve_in(results, series, row, weights), .dimensions = 1};
-        name_curve(&of, series, row / directions, series->axis[1].labels[row % directions]);
-        status = derive_from(results, &of, false);
-    }
-    memory_free(weights);
-    return status;
-}
-
-static bool any(const char *direction) {
-    (void)direction;
+static bool any(const Results *results, const char *stage, const char *direction) {
+    (void)results, (void)stage, (void)direction;
     return true;
 }
 
 Status derive_directional_diffusion(Results *results, const ResultSeries *series) {
-    return derive_directions(results, series, any);
+    return derive_directions(results, series, any, false);
 }
 
 // Along the flow displacements grow with t^3.
-static bool across_flow(const char *direction) {
+static bool across_flow(const Results *results, const char *stage, const char *direction) {
+    (void)results, (void)stage;
     return strcmp(direction, "y") == 0 || strcmp(direction, "z") == 0;
 }
 
@@ -145,5 +168,5 @@ bool derive_unsteady(const Results *results, const char *stage) {
 
 Status derive_diffusion_across_flow(Results *results, const ResultSeries *series) {
     if (derive_unsteady(results, series->stage)) return OK;
-    return derive_directions(results, series, across_flow);
+    return derive_directions(results, series, across_flow, false);
 }

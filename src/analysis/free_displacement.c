@@ -52,6 +52,7 @@ static void fill(const ResultSeries *series, const double *diffusion, double *va
 Status derive_free_displacement(Results *results, const ResultSeries *displacement,
                                 const System *system) {
     if (strcmp(displacement->axis[2].unit, "d^2/D0") != 0) return OK; // no thermostat, no diffusion
+    if (derive_forced(results, displacement->stage, NULL)) return OK; // a tracer alone would drift
     const ResultSeries shape = derive_shape(displacement, "free_displacement");
     double *values = NULL;
     TRY(NEW_ARRAY(values, shape.size));

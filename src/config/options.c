@@ -429,7 +429,7 @@ static Status fail_unknown(const OptionMap *options, const Node *node, const cha
     char home[SECTION_HOME_SIZE], map[SECTION_HOME_SIZE];
     const int below = prefix[0] ? (int)strlen(prefix) - 1 : 0; // without its dot
     snprintf(map, sizeof map, "%.*s%s%s", below, prefix, below ? " of " : "", options->name);
-    if (!slip && section_of_key(node->key, home))
+    if (!slip && section_of_key(node->key, options->targets[0].table, home))
         return tree_fail(node, "unknown key '%s' in %s; it belongs in %s", shown, map, home);
     if (near)
         return tree_fail(node, "unknown key '%s' in %s; did you mean '%s'?", shown, map,

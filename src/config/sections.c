@@ -140,10 +140,19 @@ static bool has_key(const OptionTable *table, const char *key) {
     return false;
 }
 
-bool section_of_key(const char *key, char home[SECTION_HOME_SIZE]) {
+static bool is_of_observable(const OptionTable *table) {
+    for (size_t i = 0; i < observable_count(); i++) {
+        if (table == &observable_kinds[i]->options) return true;
+    }
+    return false;
+}
+
+bool section_of_key(const char *key, const OptionTable *table, char home[SECTION_HOME_SIZE]) {
+    const bool of_observable = is_of_observable(table);
     for (size_t i = 0; i < section_count(); i++) {
         const Section section = section_at(i);
         if (!section.table || !has_key(section.table, key)) continue;
+        if (of_observable && is_of_observable(section.table)) continue;
         snprintf(home, SECTION_HOME_SIZE, "%s%s%s",
                  section.path[0] ? section.path : "the top level",
                  section.method ? " with method: " : "", section.method ? section.method : "");

@@ -28,8 +28,10 @@ typedef struct Section {
 size_t section_count(void);
 Section section_at(size_t index);
 
-// Where a key belongs, as "system" or "dynamics with method: newtonian"; false if nowhere.
-bool section_of_key(const char *key, char home[SECTION_HOME_SIZE]);
+// Where a key that stands among those of `table` belongs, as "system" or "dynamics with method:
+// newtonian"; false if nowhere. Of an observable's, that is not another observable: many have keys
+// of the same name, and none was meant.
+bool section_of_key(const char *key, const OptionTable *table, char home[SECTION_HOME_SIZE]);
 
 // What to say to a word of other engines, drives and theories that this version does not have, and
 // to a word by which other programs call what is called otherwise here; NULL for any other word.

@@ -9,6 +9,7 @@
 #include "observables/history.h"
 #include "observables/labels.h"
 #include "observables/put.h"
+#include "observables/tracer_frames.h"
 
 #include <math.h>
 #include <string.h>
@@ -49,6 +50,7 @@ static Status check(const Settings *settings, const System *system, const Clock 
                            "'%s' is sheared; take non_affine_displacement",
                            clock->stage);
     }
+    TRY(tracer_check_stays("mean_squared_displacement", clock));
     TRY(frame_check("mean_squared_displacement", settings_in(settings)->frame, 0, clock));
     return lags_check("mean_squared_displacement", lag_settings(settings), clock);
 }
@@ -223,6 +225,7 @@ static Status write(const Observer *observer, const State *state, Results *resul
         NEW_ARRAY(values, species.count * ((size_t)msd->dimension + 1) * lags_rows(lags));
     if (status == OK) status = NEW_ARRAY(times, lags_axis_values(lags));
     if (status == OK) status = put(msd, &species, values, times, results, replica);
+    if (status == OK) status = observer_put_force(observer, &state->system, results, replica);
     const bool tensors = !observer->clock.flies && strcmp(observer->clock.unit, "d^2/D0") == 0;
     if (status == OK && tensors) {
         status = put_free_diffusion(msd, state, &species, results, replica);

@@ -6,6 +6,7 @@
 #include "observables/labels.h"
 #include "observables/motion.h"
 #include "observables/put.h"
+#include "observables/tracer_frames.h"
 
 #include <stdio.h>
 
@@ -25,6 +26,7 @@ static const LagSettings *lag_settings(const Settings *settings) {
 
 static Status check(const Settings *settings, const System *system, const Clock *clock) {
     (void)system;
+    TRY(tracer_check_stays("non_gaussian_parameter", clock));
     return lags_check("non_gaussian_parameter", lag_settings(settings), clock);
 }
 

@@ -8,6 +8,7 @@
 #include "observables/labels.h"
 #include "observables/motion.h"
 #include "observables/put.h"
+#include "observables/tracer_frames.h"
 
 typedef struct OverlapSettings {
     double distance;
@@ -44,6 +45,7 @@ static const OverlapSettings *settings_in(const Settings *settings) {
 
 static Status check(const Settings *settings, const System *system, const Clock *clock) {
     (void)system;
+    TRY(tracer_check_stays("overlap", clock));
     TRY(frame_check("overlap", settings_in(settings)->frame, 0, clock));
     return lags_check("overlap", &settings_in(settings)->lags, clock);
 }

@@ -2,6 +2,8 @@
 // An observer's numbers under its stage's name.
 #include "observables/put.h"
 
+#include "propagator/tracer.h"
+
 #include <stdio.h>
 
 Status observer_put_series(const Observer *observer, const char *name, const ResultSeries *shape,
@@ -26,4 +28,16 @@ Status observer_put_shear_rate(const Observer *observer, Results *results, size_
                                    flow_fastest(&drive->flow));
     return observer_put_scalar(observer, "shear_rate", "D0/d^2", NULL, results, replica,
                                drive->flow.rate);
+}
+
+Status observer_put_force(const Observer *observer, const System *system, Results *results,
+                          size_t replica) {
+    const Drive *drive = observer->clock.drive;
+    if (!drive || !(drive_kinds(drive) & DRIVE_PULL) || drive->pull.peclet == 0) return OK;
+    const Pull *pull = &drive->pull;
+    char name[RESULT_NAME];
+    snprintf(name, sizeof name, "force_%s", drive_pull_axes[pull->axis]);
+    const double diameter = system->species[tracer_species(pull, system)].diameter;
+    return observer_put_scalar(observer, name, "kT/d", NULL, results, replica,
+                               drive_pull_force(pull, diameter));
 }

@@ -14,3 +14,8 @@ Status observer_put_scalar(const Observer *observer, const char *quantity, const
 // The shear rate of the stage, where it flows: what correlators under shear scale with. Analysis
 // knows a flow that is not steady by the name, largest_shear_rate.
 Status observer_put_shear_rate(const Observer *observer, Results *results, size_t replica);
+
+// The force on the tracer of a pulled stage as force_x, by the name of its direction: what analysis
+// knows a drift by. Nothing at rest, or without force.
+Status observer_put_force(const Observer *observer, const System *system, Results *results,
+                          size_t replica);

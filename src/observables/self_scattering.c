@@ -9,6 +9,7 @@
 #include "observables/labels.h"
 #include "observables/motion.h"
 #include "observables/put.h"
+#include "observables/tracer_frames.h"
 #include "observables/versines.h"
 #include "observables/wave_vectors.h"
 
@@ -71,6 +72,7 @@ static uint64_t directions_there(int64_t dimension) {
 static Status check(const Settings *settings_, const System *system, const Clock *clock) {
     const SelfSettings *settings = settings_in(settings_);
     TRY(wave_numbers_check("self_scattering", &settings->wave_numbers, system));
+    TRY(tracer_check_stays("self_scattering", clock));
     TRY(frame_check("self_scattering", settings->frame, DRIVE_FLOW, clock));
     if (settings->directions & ~directions_there(system->dimension)) {
         return status_fail(BAD_DATA, "self_scattering: there is no direction with z in two "

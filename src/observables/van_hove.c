@@ -7,6 +7,7 @@
 #include "observables/labels.h"
 #include "observables/motion.h"
 #include "observables/put.h"
+#include "observables/tracer_frames.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -64,6 +65,7 @@ static Status check(const Settings *settings_, const System *system, const Clock
                            "larger",
                            BINS_MOST, settings->spacing);
     }
+    TRY(tracer_check_stays("van_hove", clock));
     return lags_check("van_hove", &settings->lags, clock);
 }
 

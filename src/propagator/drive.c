@@ -126,12 +126,31 @@ unsigned drive_kinds(const Drive *drive) {
     return (flows ? DRIVE_FLOW : 0) | (drive->pull.species[0] ? DRIVE_PULL : 0);
 }
 
+enum { SHOWN_MOST = 6, REALS_WORDS_SIZE = 20 * SHOWN_MOST };
+
+// "[0, 0.5, 1]"; of a long list its beginning and its end: "[0, 1, 2, 3, ..., 20]".
+static const char *reals_words(char words[REALS_WORDS_SIZE], const OptionReals *reals) {
+    const bool all = reals->count <= SHOWN_MOST;
+    const int64_t begin = all ? reals->count : SHOWN_MOST - 2;
+    int length = snprintf(words, REALS_WORDS_SIZE, "[");
+    for (int64_t k = 0; k < begin; k++)
+        length += snprintf(words + length, (size_t)(REALS_WORDS_SIZE - length), "%s%g",
+                           k ? ", " : "", reals->values[k]);
+    if (!all)
+        length += snprintf(words + length, (size_t)(REALS_WORDS_SIZE - length), ", ..., %g",
+                           reals->values[reals->count - 1]);
+    snprintf(words + length, (size_t)(REALS_WORDS_SIZE - length), "]");
+    return words;
+}
+
 const char *flow_words(char words[FLOW_WORDS_SIZE], const Flow *flow) {
     if (oscillates(flow))
         snprintf(words, FLOW_WORDS_SIZE, "oscillate = {amplitude: %g, frequency: %g}",
                  flow->oscillation.amplitude, flow->oscillation.frequency);
     else if (has_table(flow))
-        snprintf(words, FLOW_WORDS_SIZE, "shear_table = {times: [...], rates: [...]}");
+        snprintf(words, FLOW_WORDS_SIZE, "shear_table = {times: %s, rates: %s}",
+                 reals_words((char[REALS_WORDS_SIZE]){0}, &flow->table.times),
+                 reals_words((char[REALS_WORDS_SIZE]){0}, &flow->table.rates));
     else
         snprintf(words, FLOW_WORDS_SIZE, "shear_rate = %g", flow->rate);
     return words;

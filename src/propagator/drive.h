@@ -55,8 +55,8 @@ bool drive_oscillates(const Drive *drive); // NULL does not
 // BAD_DATA with a sentence that begins with the key, if the drive is not whole.
 Status drive_check(const Drive *drive);
 
-enum { FLOW_WORDS_SIZE = 96 };
-// As in the run file, for sentences: "shear_rate = 0.02".
+enum { FLOW_WORDS_SIZE = 288 };
+// As in the run file, for sentences: "shear_rate = 0.02". A long table is shortened.
 const char *flow_words(char words[FLOW_WORDS_SIZE], const Flow *flow);
 
 enum { DRIVE_WORDS_SIZE = FLOW_WORDS_SIZE + OPTION_TEXT_SIZE };

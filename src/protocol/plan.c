@@ -253,15 +253,17 @@ size_t plan_memory(const Plan *plan) {
     return state + propagator + observers;
 }
 
+double plan_stage_seconds(const Plan *plan, size_t stage) {
+    const Dynamics *dynamics = &plan->stages[stage].dynamics;
+    return dynamics->kind->seconds_per_particle_tick(&dynamics->settings, &plan->system) *
+           (double)plan->system.particles * (double)plan_clock(plan, stage).ticks;
+}
+
 double plan_seconds(const Plan *plan) {
     if (plan->itt.given) return itt_seconds(&plan->itt);
     if (plan->schematic.given) return schematic_seconds(&plan->schematic);
     if (plan_is_theory(plan)) return theory_seconds(&plan->theory);
     double seconds = 0;
-    for (size_t s = 0; s < plan->stage_count; s++) {
-        const Dynamics *dynamics = &plan->stages[s].dynamics;
-        seconds += dynamics->kind->seconds_per_particle_tick(&dynamics->settings, &plan->system) *
-                   (double)plan->system.particles * (double)plan_clock(plan, s).ticks;
-    }
+    for (size_t s = 0; s < plan->stage_count; s++) seconds += plan_stage_seconds(plan, s);
     return seconds;
 }

@@ -75,5 +75,6 @@ Status plan_check(const Plan *plan);
 Status plan_check_input(const Plan *plan);
 size_t plan_slots(const Plan *plan); // of its Results: replicas, or groups of those that it reads
 
-size_t plan_memory(const Plan *plan);  // bytes of one replica
-double plan_seconds(const Plan *plan); // rough CPU seconds of one replica
+size_t plan_memory(const Plan *plan);                      // bytes of one replica
+double plan_seconds(const Plan *plan);                     // rough CPU seconds of one replica
+double plan_stage_seconds(const Plan *plan, size_t stage); // of that, in one stage of a simulation

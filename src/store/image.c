@@ -9,6 +9,8 @@
 // All small pieces of HDF5's own lie in one block at the beginning, before the reserved room.
 static const hsize_t METADATA_BLOCK = 1 << 16;
 static const size_t BUFFER_STEP = 1 << 16;
+// Groups keep the order in which things were made: it is the order of the run file.
+static const unsigned IN_ORDER = H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED;
 
 static Status failed(const char *what, const char *name) {
     return status_fail(NO_MEMORY, "cannot build an HDF5 file in memory: %s '%s' failed", what,
@@ -81,11 +83,10 @@ Status image_create(Image *image) {
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     const hid_t access = memory_access(image);
     if (access < 0) return failed("the file", "");
-    // Groups keep the order in which things were made: it is the order of the run file.
     const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
-    H5Pset_obj_track_times(creation, 0);
-    H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-    image->file = H5Fcreate("perrin in memory", H5F_ACC_TRUNC, creation, access);
+    if (H5Pset_obj_track_times(creation, 0) >= 0 &&
+        H5Pset_link_creation_order(creation, IN_ORDER) >= 0)
+        image->file = H5Fcreate("perrin in memory", H5F_ACC_TRUNC, creation, access);
     H5Pclose(creation);
     H5Pclose(access);
     return done(image->file < 0 ? -1 : 0, "the file", "");
@@ -128,10 +129,11 @@ void image_free(Image *image) {
 
 Status image_group(hid_t parent, const char *name, hid_t *group) {
     const hid_t creation = H5Pcreate(H5P_GROUP_CREATE);
-    H5Pset_obj_track_times(creation, 0);
-    H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-    H5Pset_attr_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-    *group = H5Gcreate2(parent, name, H5P_DEFAULT, creation, H5P_DEFAULT);
+    *group = H5I_INVALID_HID;
+    if (H5Pset_obj_track_times(creation, 0) >= 0 &&
+        H5Pset_link_creation_order(creation, IN_ORDER) >= 0 &&
+        H5Pset_attr_creation_order(creation, IN_ORDER) >= 0)
+        *group = H5Gcreate2(parent, name, H5P_DEFAULT, creation, H5P_DEFAULT);
     H5Pclose(creation);
     return done(*group < 0 ? -1 : 0, "the group", name);
 }
@@ -143,12 +145,14 @@ void image_end(hid_t object) {
 // Contiguous, given its place at once, without times that would differ from run to run.
 static hid_t dataset(hid_t parent, const char *name, hid_t type, hid_t space) {
     const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
-    H5Pset_layout(creation, H5D_CONTIGUOUS);
-    H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
     // Of a text of any length the file holds a reference, which HDF5 insists on clearing.
-    if (!H5Tis_variable_str(type)) H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
-    H5Pset_obj_track_times(creation, 0);
-    const hid_t set = H5Dcreate2(parent, name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+    const H5D_fill_time_t fill =
+        H5Tis_variable_str(type) > 0 ? H5D_FILL_TIME_IFSET : H5D_FILL_TIME_NEVER;
+    hid_t set = H5I_INVALID_HID;
+    if (H5Pset_layout(creation, H5D_CONTIGUOUS) >= 0 &&
+        H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY) >= 0 &&
+        H5Pset_fill_time(creation, fill) >= 0 && H5Pset_obj_track_times(creation, 0) >= 0)
+        set = H5Dcreate2(parent, name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
     H5Pclose(creation);
     return set;
 }
@@ -194,11 +198,12 @@ Status image_room(hid_t parent, const char *name, const ImageShape *shape, uint6
     return hand_on(done(*place == HADDR_UNDEF ? -1 : 0, "the place of", name), set, NULL);
 }
 
+// Where it cannot be made it is invalid, and so is what is made of it.
 static hid_t text_type(size_t size) {
     const hid_t type = H5Tcopy(H5T_C_S1);
-    H5Tset_size(type, size);
-    H5Tset_cset(type, H5T_CSET_UTF8);
-    return type;
+    if (H5Tset_size(type, size) >= 0 && H5Tset_cset(type, H5T_CSET_UTF8) >= 0) return type;
+    H5Tclose(type);
+    return H5I_INVALID_HID;
 }
 
 Status image_text(hid_t parent, const char *name, const char *text) {

@@ -376,11 +376,11 @@ static Status read_contents(Results **results, hid_t file) {
 // Opens the bytes, not the path: what was checked is what is read.
 Status store_parse_results(Results **results, void *bytes, size_t size) {
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    H5PLset_loading_state(0);
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-    H5Pset_fapl_core(access, 1 << 16, 0);
-    H5Pset_file_image(access, bytes, size);
-    const hid_t file = H5Fopen("perrin in memory", H5F_ACC_RDONLY, access);
+    hid_t file = H5I_INVALID_HID;
+    if (H5PLset_loading_state(0) >= 0 && H5Pset_fapl_core(access, 1 << 16, 0) >= 0 &&
+        H5Pset_file_image(access, bytes, size) >= 0)
+        file = H5Fopen("perrin in memory", H5F_ACC_RDONLY, access);
     H5Pclose(access);
     if (file < 0) return status_fail(BAD_DATA, "HDF5 cannot open it");
     const Status status = read_contents(results, file);

@@ -73,6 +73,12 @@ expect "check does not of one like the bath" keeps_quiet --set system.species.tr
 expect "check does not of a single trajectory" \
     keeps_quiet --set protocol.pulled.pull.period=0
 
+# A time that was meant otherwise costs more than anybody has.
+costs() { "$perrin" check small.yaml "$@" | grep -q "warning: more than 30 days, most of it for stage 'rest'"; }
+costs_little() { ! costs "$@"; }
+expect "check warns of what nobody waits for" costs --set protocol.rest.time=1e12
+expect "check does not of what takes no time" costs_little
+
 # Of waiting times, whether all lags end within the stage.
 waits() {
     last=$1
@@ -85,6 +91,25 @@ waits_in_vain() { ! waits "$@"; }
 expect "check warns of lags beyond the stage" waits 0.15
 expect "check does not of those within" waits_in_vain 0.1
 expect "check does not of a longer stage" waits_in_vain 0.15 --set protocol.rest.time=0.25
+
+# Of a pulled tracer diffusion is told across the force alone, along which it drifts.
+sed 's/particles: 4000/particles: 200/; s/0.45/0.05/; s/diameter: 1.6, //; /^dynamics/d; /stage:/d' pulled.yaml > forced.yaml
+cat >> forced.yaml << 'END'
+  - {stage: pulled, time: 1, pull: {species: tracer, peclet: 2, axis: y}, observe: [mean_squared_displacement]}
+dynamics: {method: event-driven, thermostat_interval: 0.1}
+ensemble: {replicas: 2}
+END
+sed -i 's/aspect: \[2, 1, 1\]/aspect: [1, 2, 1]/' forced.yaml
+"$perrin" run forced.yaml --quiet --threads 1 || exit 1
+expect "the force is told" sh -c "'$perrin' show forced | grep -q '^pulled/force_y  *4 '"
+for name in x_tracer z_tracer x z; do
+    expect "and diffusion across it: $name" \
+        sh -c "'$perrin' show forced | grep -q '^pulled/short_time_diffusion_$name '"
+done
+for name in '' _tracer _bath _y _y_tracer _total; do
+    expect "and none along it: $name" \
+        sh -c "'$perrin' show forced | grep -q . && ! '$perrin' show forced | grep -q 'time_diffusion$name '"
+done
 
 # Of a strongly pulled tracer, what a long trial makes of the friction, and where it runs away.
 of_step() { # WORDS SETTINGS...
@@ -194,6 +219,12 @@ expect "and its figure says nothing else" lacks 'Only of points of the sweep' de
 expect "rates from a file are those that they say" \
     sh -c "'$perrin' show flow/shear_rate=2 shear_stress --csv | cut -d, -f2 > a &&
            '$perrin' show ramp shear_stress --csv | cut -d, -f2 > b && test -s a && cmp a b"
+# Of a table, its numbers; of a long one, its ends.
+expect "the results tell the rates" sh -c \
+    "'$perrin' show ramp --json | grep -q 'stages.*shear_table = {times: \[0\], rates: \[2\]}'"
+printf '%s, %s\n' 0 1 0.01 2 0.02 3 0.03 4 0.04 5 0.05 6 0.2 -7 > rates.csv
+expect "check tells the ends of a long table" sh -c "'$perrin' check ramp.yaml | grep -q \
+    'driven by  *shear_table = {times: \[0, 0.01, 0.02, 0.03, ..., 0.2\], rates: \[1, 2, 3, 4, ..., -7\]}\$'"
 
 printf 'show: %d tests, %d failed\n' "$count" "$failed"
 test "$failed" = 0

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any bytes as a run file: a plan or one sentence that says where. A plan that is found must be
-// written as a run file that reads back as the same plan, and cost a known amount.
+// Any bytes as a run file: a plan, or a sentence a line that says where, for each fault. A plan
+// that is found must be written as a run file that reads back as the same plan, and cost a known
+// amount.
 #include "base/memory.h"
 #include "config/config.h"
 #include "protocol/replica.h"
@@ -9,9 +10,16 @@
 
 int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t size);
 
-static void demand_sentence(void) {
-    const char *sentence = status_sentence();
-    ASSERT(strstr(sentence, ": error: ") && !strchr(sentence, '\n'));
+static void demand_sentences(void) {
+    static const char MARK[] = ": error: ";
+    const char *line = status_sentence();
+    ASSERT(line[0] != '\0');
+    while (*line) {
+        const size_t length = strcspn(line, "\n");
+        const char *mark = strstr(line, MARK);
+        ASSERT(mark && mark + strlen(MARK) < line + length);
+        line += length + (line[length] == '\n');
+    }
 }
 
 static void demand_written_plan_reads_back(const Plan *plan) {
@@ -30,7 +38,7 @@ static void demand_written_plan_reads_back(const Plan *plan) {
 int LLVMFuzzerTestOneInput(const unsigned char *bytes, size_t size) {
     Plan *plan = NULL;
     if (config_read_text(&plan, "run.yaml", (const char *)bytes, size, NULL) != OK) {
-        demand_sentence();
+        demand_sentences();
         return 0;
     }
     demand_written_plan_reads_back(plan);

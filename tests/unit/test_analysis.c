@@ -190,6 +190,49 @@ START_TEST(newtonian_flight_has_no_brownian_short_time) {
 END_TEST
 
 // g = contact exp(-decay (x - 1)), averaged over bins.
+START_TEST(where_a_force_pulls_diffusion_is_told_across_it) {
+    // Diffusion 2 D t along each axis; along x a drift of 3 as well.
+    static const char *const species[] = {"bath", "tracer", "all"};
+    static const char *const directions[] = {"x", "y", "total"};
+    const double diffusion = 0.8, drift = 3;
+    double times[LAGS], values[9 * LAGS];
+    for (int k = 0; k < LAGS; k++) times[k] = 1e-2 * pow(10, k / 10.0);
+    for (int s = 0; s < 3; s++) {
+        for (int k = 0; k < LAGS; k++) {
+            const double free = 2 * diffusion * times[k], way = s ? drift * times[k] : 0;
+            values[(3 * s + 0) * LAGS + k] = free + way * way;
+            values[(3 * s + 1) * LAGS + k] = free;
+            values[(3 * s + 2) * LAGS + k] = 2 * free + way * way;
+        }
+    }
+    const ResultSeries shape = {
+        .stage = "pulled",
+        .observable = "mean_squared_displacement",
+        .axes = 3,
+        .axis = {{.name = "species", .unit = "", .count = 3, .labels = species},
+                 {.name = "direction", .unit = "", .count = 3, .labels = directions},
+                 {.name = "time", .unit = "d^2/D0", .count = LAGS, .values = times}}};
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(results_put_series(results, &shape, 0, values), OK);
+    ck_assert_int_eq(results_put_scalar(results, "pulled", "force_x", "kT/d", NULL, 0, drift), OK);
+    const System system = system_of(2, 1000, 0.7, 2);
+    ck_assert_int_eq(analysis_derive(results, &system), OK);
+    static const char *const told[] = {
+        "short_time_diffusion_y", "short_time_diffusion_y_bath", "short_time_diffusion_y_tracer",
+        "long_time_diffusion_y_bath", "long_time_diffusion_y_tracer"};
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++)
+        ck_assert_double_eq_tol(scalar_of(results, "pulled", told[i]), diffusion, 1e-9);
+    static const char *const untold[] = {
+        "short_time_diffusion",         "short_time_diffusion_tracer", "long_time_diffusion_tracer",
+        "long_time_diffusion_x_tracer", "short_time_diffusion_x",      "long_time_diffusion_total"};
+    for (size_t i = 0; i < sizeof untold / sizeof *untold; i++)
+        ck_assert_msg(!results_find_scalar(results, "pulled", untold[i]), "%s is told", untold[i]);
+    ck_assert(!results_find_series(results, "pulled", "free_displacement"));
+    results_free(results);
+}
+END_TEST
+
 START_TEST(heavier_species_diffuse_freely_in_proportion_less) {
     static const char *const species[] = {"light", "heavy", "all"};
     static const char *const directions[] = {"x", "y", "total"};
@@ -564,6 +607,7 @@ int main(void) {
     tcase_add_test(c, where_the_slope_still_falls_the_last_stretch_is_taken);
     tcase_add_test(c, short_time_diffusion_is_where_flight_ends);
     tcase_add_test(c, newtonian_flight_has_no_brownian_short_time);
+    tcase_add_test(c, where_a_force_pulls_diffusion_is_told_across_it);
     tcase_add_test(c, heavier_species_diffuse_freely_in_proportion_less);
     tcase_add_loop_test(c, contact_value_of_an_exponential_is_found, 0, 4);
     tcase_add_test(c, an_equation_of_state_is_for_stages_at_rest);
