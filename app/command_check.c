@@ -109,6 +109,21 @@ static void print_pull(const System *system, const Pull *pull, const Clock *cloc
     if (period <= clock->ticks) print_next_place(system, pull);
 }
 
+static bool observes(const Stage *stage, const char *observable) {
+    for (size_t k = 0; k < stage->observation_count; k++) {
+        if (strcmp(stage->observations[k].kind->name, observable) == 0) return true;
+    }
+    return false;
+}
+
+// A clock that is measured has an error, which a stage gives to whom it is asked for.
+static void print_unseen_clock(const Stage *stage) {
+    if (stage->dynamics.kind != &propagator_dynamic_monte_carlo) return;
+    if (stage->observation_count == 0 || observes(stage, "acceptance")) return;
+    printf("          %-16s not told: what a cycle was worth, and its error (acceptance)\n",
+           "  clock");
+}
+
 static Status print_stage(const Plan *plan, size_t index) {
     const Stage *stage = &plan->stages[index];
     const Clock clock = plan_clock(plan, index);
@@ -131,14 +146,8 @@ static Status print_stage(const Plan *plan, size_t index) {
         TRY(print_observation(&stage->observations[k], &plan->system, &clock,
                               k == 0 ? "  observes" : ""));
     }
+    print_unseen_clock(stage);
     return OK;
-}
-
-static bool observes(const Stage *stage, const char *observable) {
-    for (size_t k = 0; k < stage->observation_count; k++) {
-        if (strcmp(stage->observations[k].kind->name, observable) == 0) return true;
-    }
-    return false;
 }
 
 // What shows whether the halves of a stage agree. Shares of accepted moves do so of one species.

@@ -263,15 +263,17 @@ static void describe(const Settings *settings, const System *system, const Drive
         if (amplitude.rotation > 0)
             text_add(lines, " along, %.4g d across its axis, rotation %.4g",
                      amplitude.perpendicular, amplitude.rotation);
-        text_add(lines, ", acceptance about %.2g\n", predicted(set, system, s));
+        text_add(lines, ", acceptance about %.2g%s\n", predicted(set, system, s),
+                 is_predictable(system) ? "" : ", more in a nematic");
     }
     const double cycle = predicted_cycle(set, system);
     text_add(lines, "a cycle lasts about %.2g d^2/D0: %.3g cycles\n", cycle, time / cycle);
     // Neighbours that a soft sphere leaves pay for those that it approaches.
     const bool hard = shape_is_hard((ShapeKind)system->species[0].shape);
-    text_add(lines, "an acceptance of %s0.3, 0.5, 0.8 wants a step of about %.2g, %.2g, %.2g\n",
+    text_add(lines, "an acceptance of %s0.3, 0.5, 0.8 wants a step of about %.2g, %.2g, %.2g%s\n",
              hard ? "" : "more than ", predict_step(system, 0, 0.3, &chain),
-             predict_step(system, 0, 0.5, &chain), predict_step(system, 0, 0.8, &chain));
+             predict_step(system, 0, 0.5, &chain), predict_step(system, 0, 0.8, &chain),
+             is_predictable(system) ? "" : ", a longer one in a nematic");
     if (drive_kinds(drive) & DRIVE_PULL) describe_pull(set, system, &drive->pull, lines);
 }
 

@@ -53,6 +53,13 @@ halves structure_factor \
     'small: {shape: sphere, fraction: 0.5}, big: {shape: sphere, diameter: 1.2, fraction: 0.5}' \
     'dynamic-monte-carlo, step: 0.05, clock: acceptance-rescaling' 3
 
+# A measured clock has an error; a stage that does not observe it is said not to tell it.
+unseen() { "$perrin" check halves.yaml "$@" | grep -q 'not told: what a cycle was worth'; }
+seen() { ! unseen "$@"; }
+expect "check says that the clock is not told" unseen
+sed -i 's/observe:.*/observe: [acceptance, snapshot]}/' halves.yaml
+expect "check has nothing to say where it is" seen
+
 # Of a tracer with trajectories one after another, whether there will be another place for it.
 cat > pulled.yaml << 'END'
 system:

@@ -248,6 +248,11 @@ START_TEST(a_nematic_may_take_steps_that_isotropic_bodies_may_not) {
     ck_assert_ptr_nonnull(strstr(status_sentence(), "where the clock has no meaning"));
     system.start = START_CRYSTAL;
     ck_assert_int_eq(kind->check(&settings, &system), OK);
+    Text lines = {0};
+    kind->describe(&settings, &system, &(Drive){0}, 1, &lines);
+    ck_assert_ptr_nonnull(strstr(text_words(&lines), ", more in a nematic"));
+    ck_assert_ptr_nonnull(strstr(text_words(&lines), ", a longer one in a nematic"));
+    text_free(&lines);
 }
 END_TEST
 

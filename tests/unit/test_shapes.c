@@ -318,6 +318,58 @@ START_TEST(platelets_overlap_as_those_of_the_twin) {
 }
 END_TEST
 
+// A ball meets a disc if the circle that it cuts from the disc's plane does; u of length 1 but for
+// the rounding. The slack is how far rounding may move the ball before the answer changes.
+static bool twin_sphere_meets(const Real r[3], const Real u[3], Real disc, Real ball, Real *slack) {
+    Real aside[3];
+    cross(r, u, aside);
+    const Real height = fabsl(dot(r, u));
+    *slack = fabsl(ball - height);
+    if (height >= ball) return false;
+    const Real gap = sqrtl(dot(aside, aside)) - disc - sqrtl(ball * ball - height * height);
+    *slack = fminl(*slack, fabsl(gap));
+    return gap < 0;
+}
+
+START_TEST(spheres_meet_platelets_as_those_of_the_twin) {
+    Rng rng = rng_open(KEY, STREAM_PACKING, 5, 0);
+    const int64_t pairs = pairs_wanted();
+    int64_t close = 0, overlapping = 0;
+    for (int64_t i = 0; i < pairs; i++) {
+        const Body disc = {.shape = SHAPE_PLATELET, .diameter = 1};
+        const Body ball = {.shape = SHAPE_SPHERE, .diameter = rng_below(&rng, 2) ? 1 : 0.1};
+        const double reach = ball.diameter / 2;
+        double normal[3], aside[3], turn[3], r[3];
+        random_direction(&rng, normal);
+        if (rng_below(&rng, 8) == 0) memcpy(normal, Z, sizeof Z);
+        random_direction(&rng, turn);
+        vector_cross(normal, turn, aside);
+        normalise(aside);
+        // Touching the flat side, the rim from aside, from above, or anywhere; then a little off.
+        const uint64_t kind = rng_below(&rng, 4);
+        const double tilt = kind == 1 ? 0 : rng_uniform(&rng) * PI / 2;
+        const double high = kind == 0 ? reach : reach * sin(tilt);
+        const double out = kind == 0 ? rng_uniform(&rng) / 2 : 0.5 + reach * cos(tilt);
+        const double off = kind == 3 ? 2 * rng_uniform(&rng) : 1 + 1e-12 * rng_normal(&rng);
+        for (int a = 0; a < 3; a++) r[a] = off * (high * normal[a] + out * aside[a]);
+        Real wide_r[3], wide_u[3], slack;
+        widen(r, wide_r), widen(normal, wide_u);
+        const bool exact = twin_sphere_meets(wide_r, wide_u, 0.5L, reach, &slack);
+        const bool found = overlap_of(&disc, normal, &ball, X, r);
+        ck_assert(overlap_of(&ball, X, &disc, normal, (double[]){-r[0], -r[1], -r[2]}) == found);
+        overlapping += found;
+        if (slack < 2e-15L)
+            close++;
+        else
+            ck_assert_msg(found == exact, "pair %lld: slack %Lg", (long long)i, slack);
+    }
+    ck_assert_int_gt(overlapping, pairs / 4);
+    ck_assert_int_lt(close, pairs / 100);
+    printf("spheres and platelets: %lld pairs, %lld overlap, %lld too close to call\n",
+           (long long)pairs, (long long)overlapping, (long long)close);
+}
+END_TEST
+
 START_TEST(axes_may_be_turned_round) {
     Rng rng = rng_open(KEY, STREAM_PACKING, 3, 0);
     for (int i = 0; i < 20000; i++) {
@@ -413,6 +465,7 @@ int main(void) {
     tcase_add_test(cases, pairs_that_nobody_knows_are_said_to_be_so);
     tcase_add_test(cases, distances_of_segments_are_those_of_the_twin);
     tcase_add_test(cases, platelets_overlap_as_those_of_the_twin);
+    tcase_add_test(cases, spheres_meet_platelets_as_those_of_the_twin);
     tcase_add_test(cases, axes_may_be_turned_round);
     tcase_add_test(cases, second_virial_coefficients_are_half_the_excluded_volumes);
     tcase_add_test(cases, rods_diffuse_as_slender_bodies);
