@@ -8,6 +8,8 @@
 #include "base/memory.h"
 #include "protocol/replica.h"
 
+#include <math.h>
+
 // --- a propagator whose cost per tick, and so the length of a slice, can be chosen
 
 typedef struct Drift {
@@ -415,6 +417,28 @@ START_TEST(torn_and_spoiled_saves_are_refused) {
 }
 END_TEST
 
+START_TEST(what_is_no_number_ends_the_run_before_the_next_frame) {
+    static const double bad[] = {NAN, INFINITY, -INFINITY};
+    Plan *plan = two_stages(3e-4);
+    Replica *replica = fresh(plan);
+    while (!replica_frame_due(replica)) ck_assert_int_eq(replica_advance(replica), OK);
+    replica_frame_taken(replica);
+    ((State *)replica_state(replica))->position[1][7] = bad[_i]; // as if a propagator had
+    const int64_t done = replica_frames_done(replica);
+    Status status = OK;
+    while (status == OK && !replica_finished(replica)) {
+        status = replica_advance(replica);
+        if (status != OK) break;
+        ck_assert(!replica_frame_due(replica));
+    }
+    ck_assert_int_eq(status, UNHEALTHY);
+    ck_assert_msg(strstr(status_sentence(), "particle 7"), "%s", status_sentence());
+    ck_assert_int_eq(replica_frames_done(replica), done);
+    replica_free(replica);
+    memory_free(plan);
+}
+END_TEST
+
 START_TEST(a_stage_lasts_a_whole_number_of_steps) {
     Plan *plan = two_stages(1e-9);
     plan->stages[1].time = 0.25 * 12; // 12 ticks of 5 per step: 2.4 steps
@@ -458,6 +482,7 @@ int main(void) {
     tcase_add_test(all, a_replica_saved_and_loaded_anywhere_ends_in_the_same_bits);
     tcase_add_test(all, what_a_sheared_box_has_seen_is_loaded_as_it_was);
     tcase_add_test(all, torn_and_spoiled_saves_are_refused);
+    tcase_add_loop_test(all, what_is_no_number_ends_the_run_before_the_next_frame, 0, 3);
     tcase_add_test(all, a_stage_lasts_a_whole_number_of_steps);
     tcase_add_test(all, what_cannot_be_is_said);
     suite_add_tcase(suite, all);
