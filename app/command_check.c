@@ -13,7 +13,13 @@
 #include <string.h>
 #include <unistd.h>
 
-static const double MEBIBYTE = 1048576;
+static void print_bytes(double bytes) {
+    static const double MEBIBYTE = 1048576, GIBIBYTE = 1073741824;
+    if (bytes < GIBIBYTE)
+        printf("%.3g MiB", bytes / MEBIBYTE);
+    else
+        printf("%.3g GiB", bytes / GIBIBYTE);
+}
 
 static void print_system(const System *system) {
     const int dimension = (int)system->dimension;
@@ -227,14 +233,18 @@ static void print_ensemble(const EnsemblePlan *ensemble) {
 static void print_cost(const Plan *plan) {
     const double replicas = (double)plan->ensemble.replicas;
     const double cores = fmin((double)sysconf(_SC_NPROCESSORS_ONLN), replicas);
-    const double memory = (double)plan_memory(plan) / MEBIBYTE;
+    const double memory = (double)plan_memory(plan);
     const double seconds = plan_seconds(plan);
-    printf("memory    %.3g MiB per replica, %.3g MiB for all %.0f\n", memory, memory * replicas,
-           replicas);
+    printf("memory    ");
+    print_bytes(memory);
+    printf(" per replica, ");
+    print_bytes(memory * replicas);
+    printf(" for all %.0f\n", replicas);
     // A frame holds three coordinates and three image counts per particle.
     const double frame = (double)plan->system.particles * 3 * (sizeof(double) + sizeof(int32_t));
-    printf("disk      %.3g MiB of trajectories\n",
-           frame * (double)plan_frames(plan) * replicas / MEBIBYTE);
+    printf("disk      ");
+    print_bytes(frame * (double)plan_frames(plan) * replicas);
+    printf(" of trajectories\n");
     printf("time      about ");
     print_seconds(seconds);
     printf(" per replica, ");
@@ -243,6 +253,14 @@ static void print_cost(const Plan *plan) {
     print_slowest(plan, seconds * ceil(replicas / cores));
     printf("          packing and measuring come on top: most of it where a short stage observes "
            "much\n");
+}
+
+static void print_theory_cost(double bytes, double seconds) {
+    printf("memory    ");
+    print_bytes(bytes);
+    printf("\ntime      about ");
+    print_seconds(seconds);
+    printf("\n");
 }
 
 static void print_theory(const TheoryPlan *theory) {
@@ -255,9 +273,7 @@ static void print_theory(const TheoryPlan *theory) {
         printf("          %-16s %10.6g %10.6g %10.6g\n", theory->species[a].name,
                theory->species[a].fraction, theory->species[a].diameter,
                theory->species[a].diffusion);
-    printf("memory    %.3g MiB\ntime      about ", (double)theory_memory(theory) / MEBIBYTE);
-    print_seconds(theory_seconds(theory));
-    printf("\n");
+    print_theory_cost((double)theory_memory(theory), theory_seconds(theory));
 }
 
 static void print_itt(const IttPlan *itt) {
@@ -266,9 +282,7 @@ static void print_itt(const IttPlan *itt) {
            itt->last_strain);
     printf("          wave vectors up to %.6g/d, spacing %.6g/d\n", itt->last_wave_number,
            itt->spacing);
-    printf("memory    %.3g MiB\ntime      about ", (double)itt_memory(itt) / MEBIBYTE);
-    print_seconds(itt_seconds(itt));
-    printf("\n");
+    print_theory_cost((double)itt_memory(itt), itt_seconds(itt));
 }
 
 static void print_schematic(const SchematicPlan *schematic) {
@@ -280,9 +294,7 @@ static void print_schematic(const SchematicPlan *schematic) {
     schematic_say_drive(&drive, schematic);
     printf("          %s\n", text_words(&drive));
     text_free(&drive);
-    printf("memory    %.3g MiB\ntime      about ", (double)schematic_memory(schematic) / MEBIBYTE);
-    print_seconds(schematic_seconds(schematic));
-    printf("\n");
+    print_theory_cost((double)schematic_memory(schematic), schematic_seconds(schematic));
 }
 
 static Status print_plan(const Plan *plan) {

@@ -97,8 +97,8 @@ static Status load_frame(Replay *replay, int64_t tick) {
     if (index < contents.frames) TRY(trajectory_file_frame(replay->file, index, &frame, &there));
     if (!there) {
         return status_fail(BAD_DATA,
-                           "'%s' lacks frame %lld of the stage '%s'; if the run was stopped, the "
-                           "same 'perrin run' goes on with it",
+                           "'%s' has no whole frame %lld of the stage '%s': it was damaged since, "
+                           "or the run was stopped, and the same 'perrin run' goes on with it",
                            replay->path, (long long)index, replay->stage->name);
     }
     Box box = replay->state->box;
