@@ -22,10 +22,11 @@ const OptionTable stage_options = {stage_rows, sizeof stage_rows / sizeof *stage
 static const Option until_rows[] = {
     {"until.stress_error", OPTION_REAL, offsetof(Stage, stress_error), 0, 0, 1, "",
      "Standard error of the shear stress over its mean at which the stage ends: it observes "
-     "stress, "
-     "and its time or strain is the limit. Each replica ends by itself, at an error larger by the "
-     "root of the number of replicas; it looks every sixteenth window of stress, from an averaged "
-     "strain of 2 on. 0: no such end."},
+     "stress, and its time or strain is the limit. Each replica ends by itself, at an error larger "
+     "by the root of the number of replicas, as 16 stretches of its stress tell it and rather too "
+     "late than too early; it looks from an averaged strain of 2 on, ever more rarely. The error "
+     "over few replicas that results show is itself known badly: of four, to 40 %. 0: no such "
+     "end."},
 };
 const OptionTable stage_until_options = {until_rows, sizeof until_rows / sizeof *until_rows,
                                          sizeof(Stage)};
