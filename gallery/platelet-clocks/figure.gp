@@ -4,7 +4,7 @@ set terminal svg size 960,440 enhanced font "sans-serif,14" background "white"
 set logscale x
 set format x "10^{%L}"
 set xlabel "t in d^2/D_0"
-set ylabel "<{/Symbol D}r^2> / 6 D_0 t"
+set ylabel "<Δr^2> / 6 D_0 t"
 set xrange [1.5e-5:2]
 set yrange [0.6:1.02]
 set key bottom left

@@ -16,7 +16,7 @@ plot exp(-2*D_rot*x) with lines linecolor rgb "#999999" title "exactly", \
      exp(-6*D_rot*x) with lines linecolor rgb "#999999" notitle, \
      for [i = 1:2] "0.01-P".i.".csv" using 1:2:3 with yerrorbars linetype i title "P_".i.", step 0.01 d", \
      for [i = 1:2] "0.2-P".i.".csv" using 1:2:3 with yerrorbars linetype (i + 2) title "P_".i.", step 0.2 d"
-set ylabel "<{/Symbol D}r^2> of one direction / 2 D_0 t"
+set ylabel "<Δr^2> of one direction / 2 D_0 t"
 set yrange [0.7:1.4]
 set key top right
 plot along(x) with lines linecolor rgb "#999999" title "exactly", \

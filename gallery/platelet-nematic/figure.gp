@@ -8,7 +8,7 @@ isotropic(measure) = of_phase("isotropic", measure)
 nematic(measure) = of_phase("nematic|ordered", measure)
 short(measure) = of_phase("short", measure)
 set logscale x
-set xlabel "density {/Symbol r}*"
+set xlabel "density ρ*"
 set xrange [0.9:30]
 set xtics (1, 2, 3, 4, 5, 6, 8, 12, 24)
 set object 1 rectangle from 3.9, graph 0 to 4.1, graph 1 behind fillcolor rgb "#dddddd" fillstyle solid noborder

@@ -15,7 +15,7 @@ set logscale x
 set xrange [3:30]
 set xtics (3, 4, 6, 8, 11, 15, 21, 30)
 set format x ""
-set ylabel "D_{/Symbol \\174\\174} / D_{/Symbol \\136}"
+set ylabel "D_∥ / D_⊥"
 set yrange [1:1.7]
 set ytics 0.2
 plot par(x)/perp(x) with lines linetype 1 title "slender bodies, eqs 30-32", \

@@ -4,13 +4,13 @@ set terminal svg size 1100,820
 set multiplot layout 2,2
 set logscale xy
 set format "10^{%L}"
-set xlabel "shear rate in {/Symbol G}"
+set xlabel "shear rate in Γ"
 set ylabel "stress"
 set yrange [1e-3:1e2]
 set key top left
-plot "glass-curve.csv" using 1:2 with lines linetype 2 title "glass, {/Symbol e} = 0.001", \
-     "fluid-curve.csv" using 1:2 with lines linetype 1 title "fluid, {/Symbol e} = -0.001", \
-     "softer-curve.csv" using 1:2 with lines linetype 3 title "glass, {/Symbol g}_c = 0.1", \
+plot "glass-curve.csv" using 1:2 with lines linetype 2 title "glass, ε = 0.001", \
+     "fluid-curve.csv" using 1:2 with lines linetype 1 title "fluid, ε = -0.001", \
+     "softer-curve.csv" using 1:2 with lines linetype 3 title "glass, γ_c = 0.1", \
      0.2763 with lines linecolor rgb "black" dashtype 2 title "0.2763, thesis"
 set xlabel "amplitude"
 set ylabel "moduli"

@@ -27,6 +27,8 @@ for entry in "$gallery"/*/; do
     for file in README.md run.yaml full.txt points.csv measures.csv expected.csv figure.gp; do
         [ -s "$entry$file" ] || { echo "$entry$file is missing"; failed=1; }
     done
+    grep -q '{/Symbol' "${entry}figure.gp" &&
+        { echo "${entry}figure.gp: browsers have no font Symbol; write the letter"; failed=1; }
     full=$(grep -v '^#' "${entry}full.txt" | tr '\n' ' ')
     while read -r file settings; do
         # A run file of its own reads what points before it give, which is not there.
