@@ -3,9 +3,11 @@
 #include "config/points.h"
 
 #include "base/memory.h"
+#include "base/nearest.h"
 #include "base/number.h"
 #include "config/options.h"
 #include "config/sections.h"
+#include "state/system.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -144,12 +146,32 @@ Status sweep_read(Sweep *sweep, const Node *root) {
     return status;
 }
 
+// A path to a species that is there: put in the tree, another would be one more, without a shape.
+static Status judge_species(const Node *root, const SweepKey *key, const Node *entry) {
+    char section[sizeof key->path], species[sizeof key->path], shown[QUOTE_SIZE];
+    const char *names[SPECIES_MOST];
+    size_t count = 0;
+    if (sscanf(key->path, "%[^.].species.%[^.]", section, species) != 2) return OK;
+    const Node *map = tree_find(root, section);
+    if (map) map = tree_find(map, "species");
+    if (!map || tree_find(map, species)) return OK;
+    for (const Node *node = map->first; node && node->key && count < SPECIES_MOST;
+         node = node->next)
+        names[count++] = node->key;
+    if (count == 0) return OK; // what is there is refused by itself
+    const size_t nearest = nearest_word(species, names, count);
+    return tree_fail(entry, "there is no species '%s' in %s; %s '%s'%s", tree_quote(shown, species),
+                     section, nearest < count ? "did you mean" : "the first is",
+                     names[nearest < count ? nearest : 0], nearest < count ? "?" : "");
+}
+
 static Status put_values(Node *root, const Sweep *sweep, size_t point) {
     size_t index[SWEEP_KEYS_MOST];
     sweep_indices(sweep, point, index);
     for (size_t k = 0; k < sweep->keys; k++) {
         const SweepKey *key = &sweep->key[k];
         const Node *entry = tree_find(tree_find(root, "sweep"), key->path);
+        TRY(judge_species(root, key, entry));
         const Node *from = entry->kind == NODE_LIST ? entry->first : entry;
         for (size_t i = 0; entry->kind == NODE_LIST && i < index[k]; i++) from = from->next;
         TRY(tree_put(root, key->path, from, key->words[index[k]]));
