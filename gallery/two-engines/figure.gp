@@ -15,7 +15,7 @@ set xrange [-0.016:0.108]
 set xtics 0, 0.02
 set lmargin 11
 set rmargin 2
-set key bottom left
+set key bottom left font ",11" spacing 0.9
 do for [measure in "msd_0.12 D_long"] {
     do for [shape in "sphere disc"] {
         dim = shape eq "sphere" ? 3 : 2
@@ -26,10 +26,10 @@ do for [measure in "msd_0.12 D_long"] {
         brownian = measure eq "D_long" && dim == 3 ? 0.1014 : NaN
         plot for [i = 1:2] measured(shape, i, measure) using (abscissa(shape, i, $3)):($5/free):($6/free) \
                  with yerrorbars linetype i title word(titles, i), \
-             zero(shape, measure) using (-0.008):($5/free):($6/free) with yerrorbars linetype 2 pointtype 4 notitle, \
-             zero(shape, measure) using (-0.004):($7/free):($8/free) with yerrorbars linetype 1 pointtype 6 notitle, \
+             zero(shape, measure) using (-0.008):($5/free):($6/free) with yerrorbars linetype 2 pointtype 4 title "step → 0", \
+             zero(shape, measure) using (-0.004):($7/free):($8/free) with yerrorbars linetype 1 pointtype 6 title "interval → 0", \
              zero(shape, measure) using (-0.012):(brownian):(0.002) with yerrorbars linecolor rgb "black" pointtype 5 \
-                 pointsize 0.7 notitle
+                 pointsize 0.7 title "Brownian dynamics"
         unset key
     }
 }
