@@ -230,6 +230,24 @@ static void describe_crowd(const Pull *pull, double work, Text *lines) {
              100 * OFF * work, drifted ? "large" : "small", drifted ? "exact-force" : "drifted");
 }
 
+// The force is on in the calibration, of twice its cycles.
+static void describe_calibration(const Dynamic *set, const System *system, const Pull *pull,
+                                 Text *lines) {
+    const Box box = system_box(system);
+    const double edge = box.edge[pull->axis];
+    const double force =
+        drive_pull_force(pull, system->species[tracer_species(pull, system)].diameter);
+    const double alone = 2 * (double)set->calibration * predicted_cycle(set, system) *
+                         tracer_free_diffusion(pull, system, false) * force;
+    const double round = (double)ROUND;
+    if (alone < edge) return;
+    text_add(lines,
+             "in the calibration %s would go %.2g d alone, and the box is %.3g d long: it comes "
+             "into its own wake if its friction is below %.2g; calibration = %.0f would not\n",
+             pull->species, alone, edge, alone / edge,
+             round * floor((double)set->calibration * edge / alone / round));
+}
+
 static void describe_pull(const Dynamic *set, const System *system, const Pull *pull, Text *lines) {
     const size_t s = tracer_species(pull, system);
     const double step = first_step(set, system, s);
@@ -246,6 +264,7 @@ static void describe_pull(const Dynamic *set, const System *system, const Pull *
                  pull->species, pressed);
     else
         describe_crowd(pull, work, lines);
+    describe_calibration(set, system, pull, lines);
 }
 
 static void describe(const Settings *settings, const System *system, const Drive *drive,

@@ -86,11 +86,16 @@ Status tracer_check_box(const Pull *pull, const System *system) {
     const double diameter = system->species[tracer_species(pull, system)].diameter;
     const double edge = box.edge[pull->axis];
     if (pull->peclet < STRONG || edge >= EDGE_LEAST * diameter) return OK;
+    const int axis = (int)pull->axis, dimension = (int)system->dimension;
+    char aspect[16] = "";
+    for (int a = 0, used = 0; a < dimension; a++)
+        used += snprintf(aspect + used, sizeof aspect - (size_t)used, "%s%c", a > 0 ? ", " : "",
+                         a == axis ? '2' : '1');
     return status_fail(BAD_DATA,
                        "pull = {peclet: %g}: the box is %.3g d long along %s, so that the tracer "
                        "would meet its own wake; make it at least %.3g d long, with more particles "
-                       "or an aspect such as [2, 1, 1]",
-                       pull->peclet, edge, drive_pull_axes[pull->axis], EDGE_LEAST * diameter);
+                       "or an aspect such as [%s]",
+                       pull->peclet, edge, drive_pull_axes[axis], EDGE_LEAST * diameter, aspect);
 }
 
 double tracer_free_diffusion(const Pull *pull, const System *system, bool thermostatted) {
