@@ -263,16 +263,19 @@ static void print_theory_cost(double bytes, double seconds) {
     printf("\n");
 }
 
+static void print_theory_species(const TheorySpecies *species, size_t count) {
+    if (count > 0) printf("species   %-16s %10s %10s %10s\n", "", "fraction", "diameter/d", "D/D0");
+    for (size_t a = 0; a < count; a++)
+        printf("          %-16s %10.6g %10.6g %10.6g\n", species[a].name, species[a].fraction,
+               species[a].diameter, species[a].diffusion);
+}
+
 static void print_theory(const TheoryPlan *theory) {
     printf("theory    %d dimensions, structure: %s\n", (int)theory->dimension,
            theory_structure_name(theory));
     printf("          %lld wave numbers up to %.6g/d\n", (long long)theory->wave_numbers,
            theory->last_wave_number);
-    printf("species   %-16s %10s %10s %10s\n", "", "fraction", "diameter/d", "D/D0");
-    for (size_t a = 0; a < theory->species_count; a++)
-        printf("          %-16s %10.6g %10.6g %10.6g\n", theory->species[a].name,
-               theory->species[a].fraction, theory->species[a].diameter,
-               theory->species[a].diffusion);
+    print_theory_species(theory->species, theory->species_count);
     print_theory_cost((double)theory_memory(theory), theory_seconds(theory));
 }
 
@@ -282,6 +285,7 @@ static void print_itt(const IttPlan *itt) {
            itt->last_strain);
     printf("          wave vectors up to %.6g/d, spacing %.6g/d\n", itt->last_wave_number,
            itt->spacing);
+    print_theory_species(itt->species, itt->species_count);
     print_theory_cost((double)itt_memory(itt), itt_seconds(itt));
 }
 

@@ -14,34 +14,44 @@
 #include <sys/resource.h>
 
 enum { TABLE = 3000, KERNELS = 50 };
-static const double GLASS = 0.69754438; // a hundredth above the transition of this structure
+static const Mixture DISCS = {2, 1, {1}, {1}}, BINARY = {2, 2, {1, 1.4}, {0.5, 0.5}};
+// A hundredth above the transitions of these structures.
+static const double GLASS = 0.69754438, BINARY_GLASS = 0.69274783;
 
 static void fail(void) {
     fprintf(stderr, "bench_itt: %s\n", status_sentence());
     exit(1);
 }
 
-static Direct *direct_new(double cutoff) {
-    static const Mixture DISCS = {2, 1, {1}, {1}};
+static Direct *direct_new(Closure closure, const Mixture *mixture, double packing_fraction,
+                          double cutoff) {
     Oz *oz = NULL;
     Direct *direct = NULL;
     const Structure *s = NULL;
     double q[TABLE];
     const double spacing = 3 * cutoff / TABLE;
     for (size_t i = 0; i < TABLE; i++) q[i] = direct_wave_number(spacing, i);
-    if (oz_create(&oz, CLOSURE_FUNDAMENTAL, &DISCS, q, TABLE) != OK) fail();
-    if (oz_solve(oz, GLASS, &s) != OK) fail();
-    if (direct_create(&direct, s->density, spacing, s->direct, TABLE) != OK) fail();
+    if (oz_create(&oz, closure, mixture, q, TABLE) != OK) fail();
+    if (oz_solve(oz, packing_fraction, &s) != OK) fail();
+    if (direct_create(&direct, mixture, s->density, spacing, s->direct, TABLE) != OK) fail();
     oz_free(oz);
     return direct;
 }
 
-static void bench_point(const char *name, double cutoff, double spacing, double rate, bool tagged) {
-    Direct *direct = direct_new(cutoff);
+static Direct *discs(double cutoff) {
+    return direct_new(CLOSURE_FUNDAMENTAL, &DISCS, GLASS, cutoff);
+}
+
+static Direct *binary(double cutoff) {
+    return direct_new(CLOSURE_PERCUS_YEVICK, &BINARY, BINARY_GLASS, cutoff);
+}
+
+static void bench_point(const char *name, Direct *direct, double cutoff, double spacing,
+                        double rate, bool tagged) {
     Plane *plane = NULL;
     Transient *transient = NULL;
     Flow *flow = NULL;
-    const TransientSettings settings = {rate, 64, tagged};
+    const TransientSettings settings = {rate, 64, tagged, .diffusion = {1, 1}};
     const double start = bench_user_seconds();
     if (plane_create(&plane, cutoff, spacing) != OK) fail();
     if (transient_create(&transient, plane, direct, &settings) != OK) fail();
@@ -58,15 +68,20 @@ static void bench_point(const char *name, double cutoff, double spacing, double 
     direct_free(direct);
 }
 
-static void bench_kernel(const char *name, double cutoff, double spacing) {
-    Direct *direct = direct_new(cutoff);
+static void bench_kernel(const char *name, Direct *direct, double cutoff, double spacing) {
+    static const double FREE[] = {1, 1};
+    const size_t species = direct->mixture.species;
     Plane *plane = NULL;
     Kernel *kernel = NULL;
     if (plane_create(&plane, cutoff, spacing) != OK) fail();
-    if (kernel_create(&kernel, plane, direct) != OK) fail();
-    double *phi = memory_new(plane->size, sizeof *phi), *memory = memory_new(plane->size, 8);
+    if (kernel_create(&kernel, plane, direct, FREE) != OK) fail();
+    const size_t numbers = species * species * plane->size;
+    double *phi = memory_new(numbers, sizeof *phi), *memory = memory_new(numbers, sizeof *memory);
     if (!phi || !memory) fail();
-    for (size_t k = 0; k < plane->size; k++) phi[k] = plane->area[k] > 0;
+    for (size_t a = 0; a < species; a++) {
+        for (size_t k = 0; k < plane->size; k++)
+            phi[a * (species + 1) * plane->size + k] = plane->area[k] > 0;
+    }
     kernel_set_strain(kernel, 0.1);
     const double start = bench_user_seconds();
     for (int i = 0; i < KERNELS; i++) kernel_memory(kernel, phi, memory);
@@ -112,15 +127,27 @@ static void bench_double_sum(const char *name, double cutoff, double spacing) {
     plane_free(plane);
 }
 
-int main(void) {
+// Of all so far.
+static void bench_memory(const char *name) {
     struct rusage usage;
-    bench_point("itt flow-curve point rate 0.001 0.3 to 30", 30, 0.3, 1e-3, false);
     getrusage(RUSAGE_SELF, &usage);
-    bench_result("itt memory of that point", (double)usage.ru_maxrss / 1024, "MiB");
-    bench_point("itt with a tagged particle rate 0.001 0.3 to 30", 30, 0.3, 1e-3, true);
-    bench_kernel("itt kernel 0.6 to 30", 30, 0.6);
+    bench_result(name, (double)usage.ru_maxrss / 1024, "MiB");
+}
+
+int main(void) {
+    bench_point("itt flow-curve point rate 0.001 0.3 to 30", discs(30), 30, 0.3, 1e-3, false);
+    bench_memory("itt memory of that point");
+    bench_point("itt with a tagged particle rate 0.001 0.3 to 30", discs(30), 30, 0.3, 1e-3, true);
+    bench_point("itt binary flow-curve point rate 0.001 0.3 to 30", binary(30), 30, 0.3, 1e-3,
+                false);
+    bench_memory("itt memory of that binary point");
+    bench_point("itt binary with tagged particles rate 0.001 0.3 to 30", binary(30), 30, 0.3, 1e-3,
+                true);
+    bench_memory("itt memory with tagged particles of both");
+    bench_kernel("itt kernel 0.6 to 30", discs(30), 30, 0.6);
     bench_double_sum("itt double sum 0.6 to 30", 30, 0.6);
-    bench_kernel("itt kernel 0.3 to 30", 30, 0.3);
+    bench_kernel("itt kernel 0.3 to 30", discs(30), 30, 0.3);
+    bench_kernel("itt binary kernel 0.3 to 30", binary(30), 30, 0.3);
     bench_double_sum("itt double sum 0.3 to 30", 30, 0.3);
     return 0;
 }

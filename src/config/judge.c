@@ -32,7 +32,8 @@ static const Node *nth(const Node *parent, size_t index) {
 
 static const Node *species_map(const Node *root) {
     const Node *system = tree_find(root, "system");
-    return place(system ? system : tree_find(root, "theory"), "species", NULL);
+    const Node *theory = tree_find(root, "theory");
+    return place(system ? system : theory ? theory : tree_find(root, "itt"), "species", NULL);
 }
 
 // The species that the sentence names in quotes, "... species 'NAME' ..."; NULL if none.
@@ -298,22 +299,29 @@ Status judge_plan(const Node *root, const Plan *plan) {
     return placed(root, root, plan_check(plan));
 }
 
+// `map` is the section whose species these are; what they lack is told by the module itself.
+static Status judge_fractions(const Node *map, const TheorySpecies *species, size_t count) {
+    double sum = 0;
+    bool complete = count > 0;
+    for (size_t a = 0; a < count; a++) {
+        complete = complete && species[a].fraction > 0;
+        sum += species[a].fraction;
+    }
+    if (!complete || fabs(sum - 1) <= FRACTIONS_OFF) return OK;
+    return tree_fail(tree_find(map, "species"),
+                     "the fractions of the species add to %.10g; they must add to 1", sum);
+}
+
 Status judge_theory(const Node *root, const TheoryPlan *theory) {
     const Node *map = tree_find(root, "theory");
-    double sum = 0;
-    bool complete = true;
-    for (size_t a = 0; a < theory->species_count; a++) {
-        complete = complete && theory->species[a].fraction > 0;
-        sum += theory->species[a].fraction;
-    }
-    if (complete && !(fabs(sum - 1) <= FRACTIONS_OFF))
-        return tree_fail(tree_find(map, "species"),
-                         "the fractions of the species add to %.10g; they must add to 1", sum);
+    TRY(judge_fractions(map, theory->species, theory->species_count));
     return placed(root, map, theory_check(theory));
 }
 
 Status judge_itt(const Node *root, const IttPlan *itt) {
-    return placed(root, tree_find(root, "itt"), itt_check(itt));
+    const Node *map = tree_find(root, "itt");
+    TRY(judge_fractions(map, itt->species, itt->species_count));
+    return placed(root, map, itt_check(itt));
 }
 
 Status judge_schematic(const Node *root, const SchematicPlan *schematic) {

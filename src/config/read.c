@@ -306,7 +306,7 @@ static Status read_theory_species(const Node *node, TheorySpecies *species) {
     return read_section(name, &theory_species_options, species, NULL, node, true);
 }
 
-static Status read_theory_mixture(const Node *map, TheoryPlan *theory) {
+static Status read_theory_mixture(const Node *map, TheorySpecies *species, size_t *count) {
     if (map->kind != NODE_MAP || map->count == 0)
         return tree_fail(map, "species is a map from names to particles, such as "
                               "{small: {diameter: 1, fraction: 1}}");
@@ -314,10 +314,8 @@ static Status read_theory_mixture(const Node *map, TheoryPlan *theory) {
         return tree_fail(map, "%zu species; at most %d have room", map->count,
                          MIXTURE_SPECIES_MOST);
     Faults faults = {0};
-    for (const Node *node = map->first; node; node = node->next) {
-        TheorySpecies *species = &theory->species[theory->species_count++];
-        TRY(faults_keep(&faults, read_theory_species(node, species)));
-    }
+    for (const Node *node = map->first; node; node = node->next)
+        TRY(faults_keep(&faults, read_theory_species(node, &species[(*count)++])));
     return faults_tell(&faults);
 }
 
@@ -343,7 +341,9 @@ static Status read_theory(const Node *map, Plan *plan) {
     TRY(options_default(&theory_options, theory));
     TRY(faults_keep(&faults, read_section("theory", &theory_options, theory, others, map, true)));
     if (faults.count == 0) TRY(faults_keep(&faults, check_there(map, "species", SPECIES_ARE)));
-    if (species) TRY(faults_keep(&faults, read_theory_mixture(species, theory)));
+    if (species)
+        TRY(faults_keep(&faults,
+                        read_theory_mixture(species, theory->species, &theory->species_count)));
     TRY(faults_tell(&faults));
     theory_complete(theory);
     plan->ensemble.replicas = 1;
@@ -351,11 +351,18 @@ static Status read_theory(const Node *map, Plan *plan) {
 }
 
 static Status read_itt(const Node *map, Plan *plan) {
-    TRY(options_default(&itt_options, &plan->itt));
+    static const char *const others[] = {"species", NULL};
+    IttPlan *itt = &plan->itt;
+    const Node *species = tree_find(map, "species");
+    Faults faults = {0};
+    TRY(options_default(&itt_options, itt));
     TRY(options_default(&output_options, &plan->output)); // how often there is a checkpoint
-    TRY(read_section("itt", &itt_options, &plan->itt, NULL, map, true));
-    plan->itt.given = true;
-    itt_complete(&plan->itt);
+    TRY(faults_keep(&faults, read_section("itt", &itt_options, itt, others, map, true)));
+    if (species)
+        TRY(faults_keep(&faults, read_theory_mixture(species, itt->species, &itt->species_count)));
+    TRY(faults_tell(&faults));
+    itt->given = true;
+    itt_complete(itt);
     plan->ensemble.replicas = 1;
     return OK;
 }

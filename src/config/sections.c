@@ -85,10 +85,14 @@ static const Section after_observables[] = {
      "in place of system, dynamics and protocol.",
      &schematic_options},
     {"itt", NULL,
-     "Mode-coupling theory of equal discs under shear that begins at time 0, integrated through "
-     "the "
-     "transients, in place of system, dynamics and protocol.",
+     "Mode-coupling theory of discs under shear that begins at time 0, integrated through the "
+     "transients, in place of system, dynamics and protocol. Equal discs, or a mixture if species "
+     "are given.",
      &itt_options},
+    {"itt.species.NAME", NULL,
+     "One kind of discs, under a name of your choice. The first sets the unit of time by its free "
+     "diffusion coefficient D0.",
+     &theory_species_options},
 };
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 

@@ -147,19 +147,24 @@ static void write_stage(const Stage *stage, Text *text) {
     }
 }
 
+static void write_theory_species(const TheorySpecies *species, size_t count, Text *text) {
+    if (count > 0) text_add(text, "  species:\n");
+    for (size_t a = 0; a < count; a++) {
+        text_add(text, "    %s:\n", species[a].name);
+        write_table(&theory_species_options, NULL, &species[a], 3 * STEP, text);
+    }
+}
+
 static void write_theory(const TheoryPlan *theory, Text *text) {
     text_add(text, "\ntheory:\n");
     write_table(&theory_options, NULL, theory, STEP, text);
-    text_add(text, "  species:\n");
-    for (size_t a = 0; a < theory->species_count; a++) {
-        text_add(text, "    %s:\n", theory->species[a].name);
-        write_table(&theory_species_options, NULL, &theory->species[a], 3 * STEP, text);
-    }
+    write_theory_species(theory->species, theory->species_count, text);
 }
 
 static void write_itt(const IttPlan *itt, Text *text) {
     text_add(text, "\nitt:\n");
     write_table(&itt_options, NULL, itt, STEP, text);
+    write_theory_species(itt->species, itt->species_count, text);
 }
 
 static void write_schematic(const SchematicPlan *schematic, Text *text) {

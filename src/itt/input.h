@@ -5,5 +5,6 @@
 #include "itt/itt.h"
 #include "theory/measurements.h"
 
-extern const Mixture itt_discs;
+const TheorySpecies *itt_species(const IttPlan *plan, size_t *count); // never none
+Mixture itt_mixture(const IttPlan *plan);
 MeasurementsInput itt_input(const IttPlan *plan);

@@ -48,7 +48,7 @@ static Status find_critical(Itt *itt, Results *results) {
     CriticalPoint *point = NULL;
     const Measured *measured = itt->measured;
     const double last = itt->plan->last_wave_number;
-    const CriticalSearch search = {.mixture = itt_discs,
+    const CriticalSearch search = {.mixture = itt_mixture(itt->plan),
                                    .closure = (Closure)itt->plan->structure,
                                    .count = (size_t)(CRITICAL_WAVES * last),
                                    .last = last,
@@ -80,17 +80,18 @@ static Status tabulate(Itt *itt, Oz *oz, double spacing, Results *results) {
     TRY(results_put_health(results, "structure_residual",
                            "largest residual of the closure, where it is solved numerically", 1e-8,
                            oz_effort(oz).residual));
-    return direct_create(&itt->direct, s->density, spacing, s->direct, TABLE);
+    return direct_create(&itt->direct, &s->mixture, s->density, spacing, s->direct, TABLE);
 }
 
 static Status solve_structure(Itt *itt, Results *results) {
     double wave_number[TABLE];
     const double spacing = TABLE_END * itt->plan->last_wave_number / TABLE;
+    const Mixture mixture = itt_mixture(itt->plan);
     Oz *oz = NULL;
     for (size_t i = 0; i < TABLE; i++) wave_number[i] = direct_wave_number(spacing, i);
     TRY(itt->measured
             ? oz_create_measured(&oz, itt->measured, wave_number, TABLE)
-            : oz_create(&oz, (Closure)itt->plan->structure, &itt_discs, wave_number, TABLE));
+            : oz_create(&oz, (Closure)itt->plan->structure, &mixture, wave_number, TABLE));
     const Status status = tabulate(itt, oz, spacing, results);
     oz_free(oz);
     itt->step = STEP_TRANSIENTS;
@@ -99,11 +100,11 @@ static Status solve_structure(Itt *itt, Results *results) {
 
 // ---- Transients --------------------------------------------------------------------------------
 
-// Where S(q) is largest, on the table.
+// Where S(q), of all species together, is largest, on the table.
 static double peak(const Direct *direct) {
     double best = 0, most = 0;
     for (size_t i = 0; i < direct->count / 2; i++) {
-        const double q = direct_wave_number(direct->spacing, i), s = direct_factor(direct, q);
+        const double q = direct_wave_number(direct->spacing, i), s = direct_total(direct, q);
         if (s > most) best = q;
         most = fmax(most, s);
     }
@@ -114,6 +115,7 @@ static Status begin_record(Itt *itt) {
     const IttPlan *plan = itt->plan;
     const OptionReals *wanted = &plan->wave_numbers;
     const size_t waves = wanted->count > 0 ? (size_t)wanted->count : 1;
+    itt->record.species = itt_species(plan, &itt->record.species_count);
     const double decades = log10(plan->last_strain / plan->shear_rate / plan->first_time);
     for (size_t i = 0; i < waves; i++)
         itt->record.wave_number[i] = wanted->count > 0 ? wanted->values[i] : peak(itt->direct);
@@ -128,12 +130,55 @@ static Status begin_record(Itt *itt) {
 
 static Status begin_transients(Itt *itt) {
     const IttPlan *plan = itt->plan;
-    const TransientSettings settings = {plan->shear_rate, (size_t)plan->block, plan->tagged};
+    TransientSettings settings = {
+        .shear_rate = plan->shear_rate, .block = (size_t)plan->block, .tagged = plan->tagged};
+    size_t count;
+    const TheorySpecies *species = itt_species(plan, &count);
+    for (size_t a = 0; a < count; a++) settings.diffusion[a] = species[a].diffusion;
     TRY(plane_create(&itt->plane, plan->last_wave_number, plan->spacing));
     TRY(transient_create(&itt->transient, itt->plane, itt->direct, &settings));
     TRY(flow_create(&itt->flow, itt->plane, itt->direct, plan->shear_rate));
     flow_see(itt->flow, 0, transient_collective(itt->transient));
     return begin_record(itt);
+}
+
+// F = Phi S at a wave vector.
+static void read_correlators(const Itt *itt, double q, double x, double y, SmallMatrix f) {
+    const size_t species = itt->record.species_count;
+    const double *phi = transient_collective(itt->transient);
+    SmallMatrix read, factor;
+    for (size_t a = 0; a < species; a++) {
+        for (size_t b = 0; b < species; b++)
+            read[a][b] = plane_read(itt->plane, phi + (a * species + b) * itt->plane->size, x, y);
+    }
+    direct_factor(itt->direct, q, factor);
+    small_multiply(species, read, factor, f);
+}
+
+// Of pairs of species and all together, over what they were at the start.
+static void keep_correlators(Itt *itt, int direction, size_t wave, double *to, size_t stride) {
+    const size_t species = itt->record.species_count, rows = itt->record.rows;
+    const double q = itt->record.wave_number[wave];
+    double x, y, total = 0;
+    SmallMatrix f, start;
+    record_vector(direction, q, &x, &y);
+    read_correlators(itt, q, x, y, f);
+    direct_factor(itt->direct, q, start);
+    for (size_t a = 0; a < species; a++) {
+        for (size_t b = 0; b < species; b++) {
+            total += f[a][b];
+            if (b >= a && rows > 1)
+                to[mixture_pair(species, a, b) * stride] = (f[a][b] + f[b][a]) / (2 * start[a][b]);
+        }
+    }
+    to[(rows - 1) * stride] = total / direct_total(itt->direct, q);
+}
+
+static void keep_tagged(Itt *itt, int direction, size_t wave, double *to, size_t stride) {
+    double x, y;
+    record_vector(direction, itt->record.wave_number[wave], &x, &y);
+    for (size_t s = 0; s < itt->record.species_count; s++)
+        to[s * stride] = plane_read(itt->plane, transient_tagged(itt->transient, s), x, y);
 }
 
 static void keep(Itt *itt) {
@@ -142,17 +187,17 @@ static void keep(Itt *itt) {
     r->time[t] = transient_time(itt->transient);
     r->modulus[t] = flow_modulus(itt->flow);
     for (size_t i = 0; i < lines; i++) {
-        double x, y;
-        record_vector((int)(i / r->waves), r->wave_number[i % r->waves], &x, &y);
-        r->collective[t * lines + i] =
-            plane_read(itt->plane, transient_collective(itt->transient), x, y);
+        const int direction = (int)(i / r->waves);
+        keep_correlators(itt, direction, i % r->waves, r->collective + t * r->rows * lines + i,
+                         lines);
         if (r->tagged)
-            r->tagged[t * lines + i] =
-                plane_read(itt->plane, transient_tagged(itt->transient), x, y);
+            keep_tagged(itt, direction, i % r->waves, r->tagged + t * r->species_count * lines + i,
+                        lines);
     }
-    for (int d = 0; r->displacement && d < TRANSIENT_DIRECTIONS; d++)
-        r->displacement[t * TRANSIENT_DIRECTIONS + (size_t)d] =
-            transient_displacement(itt->transient, d);
+    const size_t displacements = r->displacement ? r->species_count * TRANSIENT_DIRECTIONS : 0;
+    for (size_t i = 0; i < displacements; i++)
+        r->displacement[t * displacements + i] = transient_displacement(
+            itt->transient, i / TRANSIENT_DIRECTIONS, (int)(i % TRANSIENT_DIRECTIONS));
 }
 
 // At all times from the first strain that is kept.
@@ -229,21 +274,33 @@ static Status put_flow(const Itt *itt, Results *results) {
 static Status put_diffusion(const Itt *itt, Results *results) {
     const Record *r = &itt->record;
     if (!r->displacement || r->times < 2) return OK;
-    const double *last = r->displacement + (r->times - 1) * TRANSIENT_DIRECTIONS;
-    const double *before = last - TRANSIENT_DIRECTIONS;
-    const double slope = (last[1] - before[1]) / (r->time[r->times - 1] - r->time[r->times - 2]);
-    return record_put_number(results, "diffusion_across_flow", "D0",
-                             "Slope of the displacement along y over 2 t, at the last strain.",
-                             slope / 2);
+    const size_t stride = r->species_count * TRANSIENT_DIRECTIONS;
+    const double *last = r->displacement + (r->times - 1) * stride, *before = last - stride;
+    const double time = r->time[r->times - 1] - r->time[r->times - 2];
+    double diffusion[MIXTURE_SPECIES_MOST];
+    for (size_t s = 0; s < r->species_count; s++) {
+        const size_t across = s * TRANSIENT_DIRECTIONS + 1;
+        diffusion[s] = (last[across] - before[across]) / time / 2;
+    }
+    return record_put_each(r, results, "diffusion_across_flow", "D0",
+                           "Slope of the displacement along y over 2 t, at the last strain.",
+                           diffusion);
 }
 
 static Status put_structure(const Itt *itt, Results *results) {
+    const size_t species = itt->record.species_count, size = itt->plane->size;
     double *rest = NULL;
-    TRY(NEW_ARRAY(rest, itt->plane->size));
-    for (size_t k = 0; k < itt->plane->size; k++)
-        rest[k] = direct_factor(itt->direct, hypot(itt->plane->x[k], itt->plane->y[k]));
+    TRY(NEW_ARRAY(rest, species * (species + 1) / 2 * size));
+    for (size_t k = 0; k < size; k++) {
+        SmallMatrix factor;
+        direct_factor(itt->direct, hypot(itt->plane->x[k], itt->plane->y[k]), factor);
+        for (size_t a = 0; a < species; a++) {
+            for (size_t b = a; b < species; b++)
+                rest[mixture_pair(species, a, b) * size + k] = factor[a][b];
+        }
+    }
     const Status status =
-        record_put_structure(results, itt->plane, rest, flow_distortion(itt->flow));
+        record_put_structure(&itt->record, results, itt->plane, rest, flow_distortion(itt->flow));
     memory_free(rest);
     return status;
 }
@@ -309,7 +366,7 @@ bool itt_can_save(const Itt *itt) {
     return itt->step == STEP_TRANSIENTS && itt->transient;
 }
 
-static const uint64_t ITT_TAG = 0x4954543030303032; // "ITT00002"
+static const uint64_t ITT_TAG = 0x4954543030303033; // "ITT00003"
 
 static void archive_transients(Itt *itt, Archive *archive) {
     archive_tag(archive, ITT_TAG);

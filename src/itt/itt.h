@@ -6,6 +6,7 @@
 #include "base/archive.h"
 #include "base/option.h"
 #include "results/results.h"
+#include "theory/theory.h"
 
 #include <stdbool.h>
 
@@ -23,6 +24,8 @@ typedef struct IttPlan {
     OptionReals wave_numbers; // of the correlators kept
     double first_time;
     int64_t times_per_decade;
+    size_t species_count; // 0: equal discs
+    TheorySpecies species[MIXTURE_SPECIES_MOST];
 } IttPlan;
 
 extern const OptionTable itt_options;

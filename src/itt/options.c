@@ -16,7 +16,7 @@ static const Option rows[] = {
      .fallback = CLOSURE_PERCUS_YEVICK,
      .unit = "",
      .about = "Where the structure factor at rest comes from: a closure of the Ornstein-Zernike "
-              "equation, or a closed form; or a simulation of equal discs, as {file: results.h5}.",
+              "equation, or a closed form for one species; or a simulation, as {file: results.h5}.",
      .choices = closure_names},
     MEASUREMENTS_OPTIONS(IttPlan, file, stage),
     {.name = "packing_fraction",
@@ -128,16 +128,21 @@ static Status check_wave_numbers(const IttPlan *plan) {
 }
 
 void itt_complete(IttPlan *plan) {
+    theory_complete_species(plan->species, plan->species_count);
     if (plan->file[0]) plan->structure = CLOSURE_MEASURED;
 }
 
 Status itt_check(const IttPlan *plan) {
+    TRY(theory_check_species(plan->species, plan->species_count));
     if (plan->structure == CLOSURE_MEASURED && !plan->file[0])
         return status_fail(BAD_DATA, "a measured structure needs a file; write structure: {file: "
                                      "results.h5}");
     if (plan->structure == CLOSURE_VERLET_WEIS)
         return status_fail(BAD_DATA, "structure = %s is for spheres; itt is for discs",
                            itt_structure_name(plan));
+    if (oz_is_of_one_species((Closure)plan->structure) && plan->species_count > 1)
+        return status_fail(BAD_DATA, "structure = %s is for one species, not %zu",
+                           itt_structure_name(plan), plan->species_count);
     if (plan->packing_fraction != 0 && plan->separation != 0)
         return status_fail(BAD_DATA,
                            "separation = %g stands beside packing_fraction = %g; give "
@@ -153,10 +158,21 @@ Status itt_check(const IttPlan *plan) {
     return check_wave_numbers(plan);
 }
 
-const Mixture itt_discs = {2, 1, {1}, {1}};
+static const TheorySpecies equal_discs = {"disc", 1, 1, 1};
+
+const TheorySpecies *itt_species(const IttPlan *plan, size_t *count) {
+    *count = plan->species_count > 0 ? plan->species_count : 1;
+    return plan->species_count > 0 ? plan->species : &equal_discs;
+}
+
+Mixture itt_mixture(const IttPlan *plan) {
+    size_t count;
+    const TheorySpecies *species = itt_species(plan, &count);
+    return theory_mixture_of(2, species, count);
+}
 
 MeasurementsInput itt_input(const IttPlan *plan) {
-    return (MeasurementsInput){plan->file, plan->stage, itt_discs, plan->separation != 0};
+    return (MeasurementsInput){plan->file, plan->stage, itt_mixture(plan), plan->separation != 0};
 }
 
 Status itt_check_input(const IttPlan *plan) {
@@ -165,18 +181,22 @@ Status itt_check_input(const IttPlan *plan) {
 }
 
 size_t itt_memory(const IttPlan *plan) {
-    const TransientSettings settings = {plan->shear_rate, (size_t)plan->block, plan->tagged != 0};
-    return transient_memory(plan->last_wave_number, plan->spacing, &settings);
+    const TransientSettings settings = {
+        .shear_rate = plan->shear_rate, .block = (size_t)plan->block, .tagged = plan->tagged != 0};
+    const size_t species = itt_mixture(plan).species;
+    return transient_memory(plan->last_wave_number, plan->spacing, species, &settings);
 }
 
-// About 2 us per column and row of the half plane, and kernel; 2.5 kernels at each time.
+// About 2 us per column and row of the half plane, pair of species and kernel; 2.5 kernels at each
+// time.
 double itt_seconds(const IttPlan *plan) {
     const double columns = plan->last_wave_number / plan->spacing;
     const double begin = 1e-3 / pow(plan->last_wave_number, 2);
     const double doublings = log2(plan->last_strain / plan->shear_rate / begin);
     const double kernel = 2.7e-3 * pow(columns / 100, 2) * log(columns) / log(100);
-    return 1 +
-           kernel * 2.5 * (double)plan->block / 2 * fmax(1, doublings) * (plan->tagged ? 1.7 : 1);
+    const double species = (double)itt_mixture(plan).species;
+    const double kernels = species * species + (plan->tagged ? 0.7 * species : 0);
+    return 1 + kernel * 2.5 * (double)plan->block / 2 * fmax(1, doublings) * kernels;
 }
 
 const char *itt_structure_name(const IttPlan *plan) {

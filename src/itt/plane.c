@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 enum { MARGIN = 3 }; // zeros at each end of a column: cubic interpolation reads that far
+enum { LINE = 256 }; // of a column at a time
 
 static Status fill_columns(Plane *plane) {
     size_t at = 0;
@@ -86,8 +87,21 @@ static void cubic_weights(double u, double weight[4]) {
     weight[3] = (u + 1) * u * (u - 1) / 6;
 }
 
+// Of a piece of a column, read once into a line.
+static void add_line(const double *from, const double w[4], size_t count, size_t size,
+                     size_t length, const double *part, double *sum) {
+    double line[LINE];
+    for (size_t k = 0; k < length; k++) {
+        const double *f = from + k;
+        line[k] = w[0] * f[-1] + w[1] * f[0] + w[2] * f[1] + w[3] * f[2];
+    }
+    for (size_t n = 0; n < count; n++) {
+        for (size_t k = 0; k < length; k++) sum[n * size + k] += part[n * size + k] * line[k];
+    }
+}
+
 void plane_add_advected(const Plane *plane, double strain, const double *field, const double *part,
-                        double *sum) {
+                        double *sum, size_t count) {
     for (int i = 0; i <= plane->last; i++) {
         const double way = -strain * i, whole = floor(way), u = way - whole;
         const Rows rows = rows_reached(plane->half[i], whole);
@@ -96,11 +110,10 @@ void plane_add_advected(const Plane *plane, double strain, const double *field, 
         cubic_weights(u, w);
         const size_t to = plane_place(plane, i, rows.first);
         const double *from = field + plane_place(plane, i, rows.first + (int)whole);
-        const size_t count = (size_t)(rows.last - rows.first + 1);
-        for (size_t k = 0; k < count; k++) {
-            const double *f = from + k;
-            sum[to + k] += part[to + k] * (w[0] * f[-1] + w[1] * f[0] + w[2] * f[1] + w[3] * f[2]);
-        }
+        const size_t length = (size_t)(rows.last - rows.first + 1);
+        for (size_t k = 0; k < length; k += LINE)
+            add_line(from + k, w, count, plane->size, length - k < LINE ? length - k : LINE,
+                     part + to + k, sum + to + k);
     }
 }
 

@@ -22,9 +22,10 @@ Status plane_create(Plane **out, double cutoff, double spacing);
 void plane_free(Plane *plane);
 
 // sum[q] += part[q] field[q_x, q_y - strain q_x]: a field read at advected wave vectors (Weysser,
-// thesis, eq. 5.9), by cubic interpolation along the columns; zero beyond the cutoff.
+// thesis, eq. 5.9), by cubic interpolation along the columns; zero beyond the cutoff. `count` parts
+// and sums, one after the other, for one reading.
 void plane_add_advected(const Plane *plane, double strain, const double *field, const double *part,
-                        double *sum);
+                        double *sum, size_t count);
 
 size_t plane_place(const Plane *plane, int i, int j); // of q = spacing (i, j), i >= 0, in a field
 

@@ -11,7 +11,6 @@
 
 static const double PICTURE_LAST = 14; // in 1/d, of the picture of S(q) and of its cuts
 
-static const char *const TOTAL[] = {"total"}, *const DISC[] = {"disc"};
 static const char *const STRESSES[] = {"shear_stress", "normal_stress_difference"};
 
 void record_vector(int direction, double length, double *x, double *y) {
@@ -25,7 +24,9 @@ void record_vector(int direction, double length, double *x, double *y) {
 }
 
 Status record_create(Record *r, size_t waves, size_t times, size_t strains, bool tagged) {
-    const size_t correlators = times * TRANSIENT_DIRECTIONS * waves;
+    const size_t lines = times * TRANSIENT_DIRECTIONS;
+    const size_t pairs = r->species_count * (r->species_count + 1) / 2;
+    r->rows = pairs > 1 ? pairs + 1 : 1;
     r->waves = waves;
     r->times_most = times;
     r->strains_most = strains;
@@ -33,10 +34,10 @@ Status record_create(Record *r, size_t waves, size_t times, size_t strains, bool
     TRY(NEW_ARRAY(r->modulus, times));
     TRY(NEW_ARRAY(r->strain, strains));
     TRY(NEW_ARRAY(r->stress, 2 * strains));
-    TRY(NEW_ARRAY(r->collective, correlators));
+    TRY(NEW_ARRAY(r->collective, r->rows * lines * waves));
     if (!tagged) return OK;
-    TRY(NEW_ARRAY(r->tagged, correlators));
-    return NEW_ARRAY(r->displacement, times * TRANSIENT_DIRECTIONS);
+    TRY(NEW_ARRAY(r->tagged, r->species_count * lines * waves));
+    return NEW_ARRAY(r->displacement, r->species_count * lines);
 }
 
 void record_free(Record *r) {
@@ -62,15 +63,52 @@ void record_archive(Record *r, Archive *archive) {
     archive_f64(archive, r->modulus, r->times);
     archive_f64(archive, r->strain, r->strains);
     archive_f64(archive, r->stress, 2 * r->strains);
-    archive_f64(archive, r->collective, r->times * directions * r->waves);
+    archive_f64(archive, r->collective, r->times * r->rows * directions * r->waves);
     if (!r->tagged) return;
-    archive_f64(archive, r->tagged, r->times * directions * r->waves);
-    archive_f64(archive, r->displacement, r->times * directions);
+    archive_f64(archive, r->tagged, r->times * r->species_count * directions * r->waves);
+    archive_f64(archive, r->displacement, r->times * r->species_count * directions);
 }
 
 Status record_put_number(Results *results, const char *name, const char *unit, const char *about,
                          double value) {
     return results_put_scalar(results, STAGE, name, unit, about, 0, value);
+}
+
+Status record_put_each(const Record *r, Results *results, const char *name, const char *unit,
+                       const char *about, const double *values) {
+    for (size_t a = 0; a < r->species_count; a++) {
+        char full[RESULT_NAME];
+        snprintf(full, sizeof full, "%.28s_%s", name, r->species[a].name);
+        TRY(record_put_number(results, r->species_count > 1 ? full : name, unit, about, values[a]));
+    }
+    return OK;
+}
+
+// "small-small", "small-big", "big-big", "total"; of one species "total" alone.
+typedef struct Labels {
+    size_t count;
+    const char *names[MIXTURE_PAIRS_MOST + 1]; // point into `text`
+    char text[MIXTURE_PAIRS_MOST + 1][2 * THEORY_NAME_SIZE];
+} Labels;
+
+static void append(Labels *labels, const char *first, const char *dash, const char *second) {
+    char *text = labels->text[labels->count];
+    snprintf(text, sizeof labels->text[0], "%s%s%s", first, dash, second);
+    labels->names[labels->count++] = text;
+}
+
+static void label_rows(Labels *labels, const Record *r) {
+    labels->count = 0;
+    for (size_t a = 0; a < r->species_count && r->rows > 1; a++) {
+        for (size_t b = a; b < r->species_count; b++)
+            append(labels, r->species[a].name, "-", r->species[b].name);
+    }
+    append(labels, "total", "", "");
+}
+
+static void label_species(Labels *labels, const Record *r) {
+    labels->count = 0;
+    for (size_t a = 0; a < r->species_count; a++) append(labels, r->species[a].name, "", "");
 }
 
 static ResultSeries shape_of(const char *name, const char *unit, const char *about) {
@@ -108,27 +146,30 @@ static Status put_turned(Results *results, const ResultSeries *shape, const doub
 
 static Status put_correlators(const Record *r, Results *results, const double *kept,
                               const char *name, const char *about, const char *axis,
-                              const char *const *label) {
+                              const Labels *labels) {
     ResultSeries shape = shape_of(name, "", about);
-    add_labels(&shape, axis, 1, label);
+    add_labels(&shape, axis, labels->count, labels->names);
     add_labels(&shape, "direction", TRANSIENT_DIRECTIONS, transient_direction);
     add_numbers(&shape, "wave_number", "1/d", r->waves, r->wave_number);
     add_numbers(&shape, "time", "d^2/D0", r->times, r->time);
-    return put_turned(results, &shape, kept, r->times, TRANSIENT_DIRECTIONS * r->waves);
+    return put_turned(results, &shape, kept, r->times,
+                      labels->count * TRANSIENT_DIRECTIONS * r->waves);
 }
 
-static Status put_displacement(const Record *r, Results *results) {
+static Status put_displacement(const Record *r, Results *results, const Labels *labels) {
     ResultSeries shape = shape_of(
         "advected_displacement", "d^2",
         "Mean squared displacement of a tagged particle along directions; along x from where the "
         "flow at its final height has carried it.");
-    add_labels(&shape, "species", 1, DISC);
+    add_labels(&shape, "species", labels->count, labels->names);
     add_labels(&shape, "direction", TRANSIENT_DIRECTIONS, transient_direction);
     add_numbers(&shape, "time", "d^2/D0", r->times, r->time);
-    return put_turned(results, &shape, r->displacement, r->times, TRANSIENT_DIRECTIONS);
+    return put_turned(results, &shape, r->displacement, r->times,
+                      labels->count * TRANSIENT_DIRECTIONS);
 }
 
 Status record_put(const Record *r, Results *results) {
+    Labels labels;
     ResultSeries stress =
         shape_of("stress", "kT/d^2", "Stress after the start of shear, as a function of strain.");
     add_labels(&stress, "stress", 2, STRESSES);
@@ -139,36 +180,63 @@ Status record_put(const Record *r, Results *results) {
                  "G(t) under shear: the stress is the shear rate times its integral.");
     add_numbers(&modulus, "time", "d^2/D0", r->times, r->time);
     TRY(results_put_series(results, &modulus, 0, r->modulus));
+    label_rows(&labels, r);
     TRY(put_correlators(r, results, r->collective, "advected_scattering_normalised",
-                        "Transient collective correlators Phi_q(t) along directions of q at the "
-                        "start of shear, at time t at the advected q(t).",
-                        "pair", TOTAL));
+                        "Transient collective correlators along directions of q at the start of "
+                        "shear, at time t at the advected q(t), each over its value at t = 0; F_ab "
+                        "and F_ba, which differ, are averaged.",
+                        "pair", &labels));
     if (!r->tagged) return OK;
+    label_species(&labels, r);
     TRY(put_correlators(r, results, r->tagged, "self_scattering",
                         "Transient correlators of a tagged particle along directions of q at the "
                         "start of shear.",
-                        "species", DISC));
-    return put_displacement(r, results);
+                        "species", &labels));
+    return put_displacement(r, results, &labels);
 }
 
 // ---- S(q) --------------------------------------------------------------------------------------
 
-// change, and with `rest` what it changes, on a square of the plane.
-static Status put_picture(Results *results, const Plane *plane, const double *rest,
-                          const double *change, const char *name, const char *about) {
+// Of a row: a pair, or the sum over both species of all pairs; with `rest` what `change` changes.
+static void add_row(const Record *r, const Plane *plane, size_t row, const double *rest,
+                    const double *change, double *sum) {
+    for (size_t a = 0; a < r->species_count; a++) {
+        for (size_t b = 0; b < r->species_count; b++) {
+            const size_t pair = mixture_pair(r->species_count, a, b), at = pair * plane->size;
+            if (row + 1 < r->rows && (row != pair || b < a)) continue;
+            for (size_t k = 0; k < plane->size; k++)
+                sum[k] += (rest ? rest[at + k] : 0) + change[at + k];
+        }
+    }
+}
+
+// [row][size], the total last.
+static Status find_rows(const Record *r, const Plane *plane, const double *rest,
+                        const double *change, double **rows) {
+    TRY(NEW_ARRAY(*rows, r->rows * plane->size));
+    for (size_t row = 0; row < r->rows; row++)
+        add_row(r, plane, row, rest, change, *rows + row * plane->size);
+    return OK;
+}
+
+// On a square of the plane.
+static Status put_picture(const Record *r, Results *results, const Plane *plane, const double *rows,
+                          const char *name, const char *about) {
     const int half = (int)(fmin(PICTURE_LAST, plane->cutoff / 1.5) / plane->spacing);
-    const size_t side = 2 * (size_t)half + 1;
+    const size_t side = 2 * (size_t)half + 1, square = side * side;
     ResultSeries shape = shape_of(name, "", about);
+    Labels labels;
     double *values = NULL, *along = NULL;
-    Status status = NEW_ARRAY(values, side * side);
+    Status status = NEW_ARRAY(values, r->rows * square);
     if (status == OK) status = NEW_ARRAY(along, side);
-    for (size_t k = 0; status == OK && k < side * side; k++) {
-        const int i = (int)(k / side) - half, j = (int)(k % side) - half;
+    for (size_t k = 0; status == OK && k < r->rows * square; k++) {
+        const int i = (int)(k % square / side) - half, j = (int)(k % side) - half;
         const size_t at = i < 0 ? plane_place(plane, -i, -j) : plane_place(plane, i, j);
         along[k % side] = j * plane->spacing;
-        values[k] = (rest ? rest[at] : 0) + change[at];
+        values[k] = rows[k / square * plane->size + at];
     }
-    add_labels(&shape, "pair", 1, TOTAL);
+    label_rows(&labels, r);
+    add_labels(&shape, "pair", labels.count, labels.names);
     add_numbers(&shape, "wave_number_x", "1/d", side, along);
     add_numbers(&shape, "wave_number_y", "1/d", side, along);
     if (status == OK) status = results_put_series(results, &shape, 0, values);
@@ -177,20 +245,23 @@ static Status put_picture(Results *results, const Plane *plane, const double *re
     return status;
 }
 
-static Status put_cuts(Results *results, const Plane *plane, const double *rest,
-                       const double *change, const char *name, const char *about) {
+static Status put_cuts(const Record *r, Results *results, const Plane *plane, const double *rows,
+                       const char *name, const char *about) {
     const size_t count = (size_t)(fmin(PICTURE_LAST, plane->cutoff / 1.5) / plane->spacing);
+    const size_t cuts = TRANSIENT_DIRECTIONS * count;
     ResultSeries shape = shape_of(name, "", about);
+    Labels labels;
     double *values = NULL, *along = NULL;
-    Status status = NEW_ARRAY(values, TRANSIENT_DIRECTIONS * count);
+    Status status = NEW_ARRAY(values, r->rows * cuts);
     if (status == OK) status = NEW_ARRAY(along, count);
-    for (size_t k = 0; status == OK && k < TRANSIENT_DIRECTIONS * count; k++) {
+    for (size_t k = 0; status == OK && k < r->rows * cuts; k++) {
         double x, y;
         along[k % count] = (double)(k % count + 1) * plane->spacing;
-        record_vector((int)(k / count), along[k % count], &x, &y);
-        values[k] = (rest ? plane_read(plane, rest, x, y) : 0) + plane_read(plane, change, x, y);
+        record_vector((int)(k % cuts / count), along[k % count], &x, &y);
+        values[k] = plane_read(plane, rows + k / cuts * plane->size, x, y);
     }
-    add_labels(&shape, "pair", 1, TOTAL);
+    label_rows(&labels, r);
+    add_labels(&shape, "pair", labels.count, labels.names);
     add_labels(&shape, "direction", TRANSIENT_DIRECTIONS, transient_direction);
     add_numbers(&shape, "wave_number", "1/d", count, along);
     if (status == OK) status = results_put_series(results, &shape, 0, values);
@@ -199,16 +270,32 @@ static Status put_cuts(Results *results, const Plane *plane, const double *rest,
     return status;
 }
 
-Status record_put_structure(Results *results, const Plane *plane, const double *rest,
-                            const double *change) {
-    TRY(put_picture(results, plane, rest, change, "planar_structure_factor",
+static Status put_flowing(const Record *r, Results *results, const Plane *plane,
+                          const double *rows) {
+    TRY(put_picture(r, results, plane, rows, "planar_structure_factor",
                     "Structure factor of the flow at the last strain, on the plane of q_x and "
                     "q_y."));
-    TRY(put_picture(results, plane, NULL, change, "planar_structure_factor_change",
+    return put_cuts(r, results, plane, rows, "structure_factor_cuts",
+                    "Structure factor of the flow along x, y and the diagonals.");
+}
+
+static Status put_change(const Record *r, Results *results, const Plane *plane,
+                         const double *rows) {
+    TRY(put_picture(r, results, plane, rows, "planar_structure_factor_change",
                     "Structure factor of the flow less that at rest."));
-    TRY(put_cuts(results, plane, rest, change, "structure_factor_cuts",
-                 "Structure factor of the flow along x, y and the diagonals."));
-    return put_cuts(results, plane, NULL, change, "structure_factor_cuts_change",
+    return put_cuts(r, results, plane, rows, "structure_factor_cuts_change",
                     "Structure factor of the flow less that at rest, along x, y and the "
                     "diagonals.");
+}
+
+Status record_put_structure(const Record *r, Results *results, const Plane *plane,
+                            const double *rest, const double *change) {
+    double *flowing = NULL, *changed = NULL;
+    Status status = find_rows(r, plane, rest, change, &flowing);
+    if (status == OK) status = find_rows(r, plane, NULL, change, &changed);
+    if (status == OK) status = put_flowing(r, results, plane, flowing);
+    if (status == OK) status = put_change(r, results, plane, changed);
+    memory_free(flowing);
+    memory_free(changed);
+    return status;
 }

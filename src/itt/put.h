@@ -9,16 +9,19 @@
 
 // What is kept while time goes on, the slowest index first.
 typedef struct Record {
+    const TheorySpecies *species;
+    size_t species_count, rows; // rows: pairs of species and their total, which is alone of one
     size_t waves, times, times_most;
     double wave_number[OPTION_LIST_SIZE];
     double *time, *modulus; // [times_most]
     size_t strains, strains_most;
-    double *strain, *stress;     // [strains_most], and [strains_most][2]: shear, normal difference
-    double *collective, *tagged; // [times_most][direction][wave]; tagged NULL: none
-    double *displacement;        // [times_most][direction]; NULL: none
+    double *strain, *stress; // [strains_most], and [strains_most][2]: shear, normal difference
+    double *collective;      // [times_most][row][direction][wave]
+    double *tagged;          // [times_most][species][direction][wave]; NULL: none
+    double *displacement;    // [times_most][species][direction]; NULL: none
 } Record;
 
-// Room for these times and strains; which wave numbers is set by the caller.
+// Room for these times and strains; which wave numbers and species is set by the caller.
 Status record_create(Record *record, size_t waves, size_t times, size_t strains, bool tagged);
 void record_free(Record *record);
 // Saves what is kept, or loads it where there is the same room.
@@ -27,10 +30,14 @@ void record_archive(Record *record, Archive *archive);
 Status record_put(const Record *record, Results *results);
 Status record_put_number(Results *results, const char *name, const char *unit, const char *about,
                          double value);
+// Of each species, under the name with that of the species where there are several.
+Status record_put_each(const Record *record, Results *results, const char *name, const char *unit,
+                       const char *about, const double *values);
 
-// S(q) under shear and its change, on the plane and along its cuts; `rest` is S at rest.
-Status record_put_structure(Results *results, const Plane *plane, const double *rest,
-                            const double *change);
+// S_ab(q) under shear and its change, on the plane and along its cuts, [pair][size of the plane];
+// `rest` is S at rest.
+Status record_put_structure(const Record *record, Results *results, const Plane *plane,
+                            const double *rest, const double *change);
 
 // The wave vector of this length in a direction.
 void record_vector(int direction, double length, double *x, double *y);

@@ -19,18 +19,27 @@ struct Transient {
     TransientSettings settings;
     Kernel *kernel;
     double step;
+    size_t species;
     size_t block, now; // index of the present time in the block
-    Relaxation collective, tagged;
-    Walk walk;
+    Relaxation collective;
+    Relaxation tagged[MIXTURE_SPECIES_MOST]; // of species that are not wanted: empty
+    Walk walk[MIXTURE_SPECIES_MOST];
 };
 
 const char *const transient_direction[TRANSIENT_DIRECTIONS] = {"x", "y", "xy", "-xy"};
 
+// Species with tagged particles: all or none.
+static size_t tagged_species(const Transient *t) {
+    return t->settings.tagged ? t->species : 0;
+}
+
 static Status allocate(Transient *t) {
-    TRY(relaxation_create(&t->collective, t->plane, t->block));
-    if (!t->settings.tagged) return OK;
-    TRY(relaxation_create(&t->tagged, t->plane, t->block));
-    return walk_create(&t->walk, t->block);
+    TRY(relaxation_create(&t->collective, t->plane, t->species, t->block));
+    for (size_t s = 0; s < tagged_species(t); s++) {
+        TRY(relaxation_create(&t->tagged[s], t->plane, 1, t->block));
+        TRY(walk_create(&t->walk[s], t->settings.diffusion[s], t->block));
+    }
+    return OK;
 }
 
 // The kernels at time i, whose correlators are known.
@@ -39,44 +48,46 @@ static void collective_kernel(Transient *t, size_t i) {
                   relaxation_memory(&t->collective, i));
 }
 
-static void tagged_kernel(Transient *t, size_t i) {
-    const double *phi = relaxation_phi(&t->tagged, i);
-    kernel_tagged(t->kernel, phi, relaxation_memory(&t->tagged, i));
-    kernel_displacement(t->kernel, relaxation_phi(&t->collective, i), phi, t->walk.friction[i]);
+static void tagged_kernel(Transient *t, size_t s, size_t i) {
+    kernel_tagged(t->kernel, s, relaxation_phi(&t->tagged[s], i),
+                  relaxation_memory(&t->tagged[s], i));
 }
 
-// To second order in t: 1 - t rate + t^2 rate^2 (1 + m)/2, the rate at rest and its mean since.
-static void expand(Transient *t, Relaxation *r, size_t i, const double *rest, const double *rate) {
-    const double time = (double)i * t->step;
-    const double *kernel = relaxation_memory(r, 0);
-    double *phi = relaxation_phi(r, i);
-    for (size_t k = 0; k < t->plane->size; k++) {
-        if (!(t->plane->area[k] > 0)) continue;
-        const double x = time * (rest[k] + rate[k]) / 2;
-        phi[k] = 1 - x + x * x / 2 * (1 + kernel[k]);
-    }
+static void set_friction(Transient *t, size_t s, size_t i) {
+    double friction[2][2];
+    kernel_displacement(t->kernel, s, relaxation_phi(&t->collective, i),
+                        relaxation_phi(&t->tagged[s], i), friction);
+    walk_set_friction(&t->walk[s], i, friction);
 }
 
+static void begin_tagged(Transient *t, size_t s, size_t i, const double *rest) {
+    relaxation_expand(&t->tagged[s], i, (double)i * t->step, rest + s * t->plane->size,
+                      kernel_tagged_rate(t->kernel, s));
+    tagged_kernel(t, s, i);
+    set_friction(t, s, i);
+    if (i > 0) relaxation_average(&t->tagged[s], i);
+    walk_begin(&t->walk[s], i, t->step, t->settings.shear_rate * t->step);
+}
+
+static void begin_at(Transient *t, size_t i, const double *rest, const double *tagged_rest) {
+    kernel_set_strain(t->kernel, t->settings.shear_rate * (double)i * t->step);
+    relaxation_expand(&t->collective, i, (double)i * t->step, rest, kernel_rate(t->kernel));
+    collective_kernel(t, i);
+    if (i > 0) relaxation_average(&t->collective, i);
+    for (size_t s = 0; s < tagged_species(t); s++) begin_tagged(t, s, i, tagged_rest);
+}
+
+// The rates at rest are those of a kernel that has just been created.
 static Status begin(Transient *t) {
-    const size_t size = t->plane->size;
+    const size_t size = t->plane->size, entries = t->species * t->species;
     double *rest = NULL, *tagged_rest = NULL;
-    Status status = NEW_ARRAY(rest, size);
-    if (status == OK) status = NEW_ARRAY(tagged_rest, size);
-    for (size_t i = 0; status == OK && i <= t->block / 2; i++) {
-        kernel_set_strain(t->kernel, t->settings.shear_rate * (double)i * t->step);
-        if (i == 0) {
-            memcpy(rest, kernel_rate(t->kernel), size * sizeof *rest);
-            memcpy(tagged_rest, kernel_tagged_rate(t->kernel), size * sizeof *rest);
-        }
-        expand(t, &t->collective, i, rest, kernel_rate(t->kernel));
-        collective_kernel(t, i);
-        if (i > 0) relaxation_average(&t->collective, i);
-        if (!t->settings.tagged) continue;
-        expand(t, &t->tagged, i, tagged_rest, kernel_tagged_rate(t->kernel));
-        tagged_kernel(t, i);
-        if (i > 0) relaxation_average(&t->tagged, i);
-        walk_begin(&t->walk, i, t->step, t->settings.shear_rate * t->step);
+    Status status = NEW_ARRAY(rest, entries * size);
+    if (status == OK) status = NEW_ARRAY(tagged_rest, t->species * size);
+    if (status == OK) {
+        memcpy(rest, kernel_rate(t->kernel), entries * size * sizeof *rest);
+        memcpy(tagged_rest, kernel_tagged_rate(t->kernel, 0), t->species * size * sizeof *rest);
     }
+    for (size_t i = 0; status == OK && i <= t->block / 2; i++) begin_at(t, i, rest, tagged_rest);
     memory_free(rest);
     memory_free(tagged_rest);
     return status;
@@ -101,27 +112,26 @@ static Status advance_collective(Transient *t, double shear) {
     return OK;
 }
 
-static Status advance_tagged(Transient *t, double shear) {
+static Status advance_tagged(Transient *t, size_t s, double shear) {
     double change = INFINITY;
-    relaxation_prepare(&t->tagged, t->now, t->step, shear, kernel_tagged_rate(t->kernel));
+    Relaxation *tagged = &t->tagged[s];
+    relaxation_prepare(tagged, t->now, t->step, shear, kernel_tagged_rate(t->kernel, s));
     for (int i = 0; i < ITERATIONS_MOST && !(change < CONVERGED); i++) {
-        kernel_tagged(t->kernel, relaxation_phi(&t->tagged, t->now),
-                      relaxation_memory(&t->tagged, t->now));
-        change = relaxation_iterate(&t->tagged, t->now, i == 0);
+        tagged_kernel(t, s, t->now);
+        change = relaxation_iterate(tagged, t->now, i == 0);
     }
     if (!(change < CONVERGED)) return fail_slow(t, change);
-    relaxation_average(&t->tagged, t->now);
-    kernel_displacement(t->kernel, relaxation_phi(&t->collective, t->now),
-                        relaxation_phi(&t->tagged, t->now), t->walk.friction[t->now]);
-    walk_advance(&t->walk, t->now, t->step, shear);
+    relaxation_average(tagged, t->now);
+    set_friction(t, s, t->now);
+    walk_advance(&t->walk[s], t->now, t->step, shear);
     return OK;
 }
 
 static void next_block(Transient *t) {
     relaxation_decimate(&t->collective);
-    if (t->settings.tagged) {
-        relaxation_decimate(&t->tagged);
-        walk_decimate(&t->walk);
+    for (size_t s = 0; s < tagged_species(t); s++) {
+        relaxation_decimate(&t->tagged[s]);
+        walk_decimate(&t->walk[s]);
     }
     t->step *= 2;
     t->now = t->block / 2;
@@ -134,7 +144,14 @@ Status transient_advance(Transient *t) {
     const double shear = t->settings.shear_rate * t->step;
     kernel_set_strain(t->kernel, transient_strain(t));
     TRY(advance_collective(t, shear));
-    return t->settings.tagged ? advance_tagged(t, shear) : OK;
+    for (size_t s = 0; s < tagged_species(t); s++) TRY(advance_tagged(t, s, shear));
+    return OK;
+}
+
+static double fastest(const Transient *t) {
+    double most = 0;
+    for (size_t s = 0; s < t->species; s++) most = fmax(most, t->settings.diffusion[s]);
+    return most;
 }
 
 Status transient_create(Transient **out, const Plane *plane, const Direct *direct,
@@ -145,8 +162,9 @@ Status transient_create(Transient **out, const Plane *plane, const Direct *direc
     t->plane = plane;
     t->settings = *settings;
     t->block = settings->block ? settings->block : BLOCK;
-    t->step = TAYLOR_END / (plane->cutoff * plane->cutoff) / (double)(t->block / 2);
-    Status status = kernel_create(&t->kernel, plane, direct);
+    t->species = direct->mixture.species;
+    t->step = TAYLOR_END / (fastest(t) * plane->cutoff * plane->cutoff) / (double)(t->block / 2);
+    Status status = kernel_create(&t->kernel, plane, direct, settings->diffusion);
     if (status == OK) status = allocate(t);
     if (status == OK) status = begin(t);
     if (status == OK)
@@ -159,18 +177,23 @@ Status transient_create(Transient **out, const Plane *plane, const Direct *direc
 void transient_free(Transient *t) {
     if (!t) return;
     relaxation_free(&t->collective);
-    relaxation_free(&t->tagged);
-    walk_free(&t->walk);
+    for (size_t s = 0; s < MIXTURE_SPECIES_MOST; s++) {
+        relaxation_free(&t->tagged[s]);
+        walk_free(&t->walk[s]);
+    }
     kernel_free(t->kernel);
     memory_free(t);
 }
 
-size_t transient_memory(double cutoff, double spacing, const TransientSettings *settings) {
-    const double columns = cutoff / spacing,
-                 block = (double)(settings->block ? settings->block : BLOCK);
-    const double fields = (3 * block + 10) * (settings->tagged ? 2 : 1) + 30;
+// Histories, the kernel's matrices, and what it has in space.
+size_t transient_memory(double cutoff, double spacing, size_t species,
+                        const TransientSettings *settings) {
+    const double columns = cutoff / spacing, entries = (double)(species * species);
+    const double history = (double)relaxation_fields(settings->block ? settings->block : BLOCK);
+    const double fields =
+        history * (entries + (settings->tagged ? (double)species : 0)) + 16 * entries + 20;
     const double size = columns * (1.6 * columns + 6), room = 5 * columns * columns;
-    return (size_t)(sizeof(double) * (fields * size + 15 * room));
+    return (size_t)(sizeof(double) * (fields * size + (12 + 3 * entries) * room));
 }
 
 double transient_time(const Transient *t) {
@@ -185,12 +208,12 @@ const double *transient_collective(const Transient *t) {
     return relaxation_phi(&t->collective, t->now);
 }
 
-const double *transient_tagged(const Transient *t) {
-    return t->settings.tagged ? relaxation_phi(&t->tagged, t->now) : NULL;
+const double *transient_tagged(const Transient *t, size_t species) {
+    return t->settings.tagged ? relaxation_phi(&t->tagged[species], t->now) : NULL;
 }
 
-double transient_displacement(const Transient *t, int direction) {
-    return t->settings.tagged ? t->walk.value[direction][t->now] : NAN;
+double transient_displacement(const Transient *t, size_t species, int direction) {
+    return t->settings.tagged ? t->walk[species].value[direction][t->now] : NAN;
 }
 
 void transient_archive(Transient *t, Archive *archive) {
@@ -201,7 +224,8 @@ void transient_archive(Transient *t, Archive *archive) {
     if (archive->status != OK) return;
     t->now = now;
     relaxation_archive(&t->collective, archive);
-    if (!t->settings.tagged) return;
-    relaxation_archive(&t->tagged, archive);
-    walk_archive(&t->walk, archive);
+    for (size_t s = 0; s < tagged_species(t); s++) {
+        relaxation_archive(&t->tagged[s], archive);
+        walk_archive(&t->walk[s], archive);
+    }
 }

@@ -16,8 +16,8 @@ static const double DIRECTION[WALK_DIRECTIONS][2] = {
     {0.70710678118654752440, 0.70710678118654752440},
     {-0.70710678118654752440, 0.70710678118654752440}};
 
-Status walk_create(Walk *s, size_t block) {
-    *s = (Walk){.block = block};
+Status walk_create(Walk *s, double diffusion, size_t block) {
+    *s = (Walk){.block = block, .diffusion = diffusion};
     for (int d = 0; d < WALK_DIRECTIONS; d++) {
         TRY(NEW_ARRAY(s->value[d], block + 1));
         TRY(NEW_ARRAY(s->mean[d], block + 1));
@@ -47,7 +47,12 @@ static double square(const double e[2]) {
     return e[0] * e[0] + e[1] * e[1];
 }
 
-// e(t').K.e(t)/e(t')^2
+void walk_set_friction(Walk *s, size_t i, const double friction[2][2]) {
+    for (int a = 0; a < 4; a++)
+        s->friction[i][a / 2][a % 2] = s->diffusion * friction[a / 2][a % 2];
+}
+
+// D_s e(t').K.e(t)/e(t')^2
 static double kernel(const double e[2], Friction friction, double earlier, double later) {
     double from[2], to[2], sum = 0;
     advect(e, earlier, from);
@@ -74,8 +79,8 @@ void walk_begin(Walk *s, size_t i, double step, double shear) {
     for (int d = 0; d < WALK_DIRECTIONS; d++) {
         double middle[2];
         advect(DIRECTION[d], shear * (double)i / 2, middle);
-        s->value[d][i] =
-            2 * time * (square(middle) - kernel(DIRECTION[d], s->friction[0], 0, 0) * time / 2);
+        s->value[d][i] = 2 * s->diffusion * time *
+                         (square(middle) - kernel(DIRECTION[d], s->friction[0], 0, 0) * time / 2);
     }
     average(s, i);
 }
@@ -104,9 +109,10 @@ void walk_advance(Walk *s, size_t i, double step, double shear) {
                               kernel(e, s->friction_moment[1], now - shear / 2, now);
         double end[2];
         advect(e, now, end);
-        s->value[d][i] = (2 * square(end) + (4 * value[i - 1] - value[i - 2]) / (2 * step) +
-                          newest * value[i - 1] - known_integral(s, d, i, shear)) /
-                         (1.5 / step + newest);
+        s->value[d][i] =
+            (2 * s->diffusion * square(end) + (4 * value[i - 1] - value[i - 2]) / (2 * step) +
+             newest * value[i - 1] - known_integral(s, d, i, shear)) /
+            (1.5 / step + newest);
     }
     average(s, i);
 }

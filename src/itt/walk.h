@@ -3,7 +3,8 @@
 // what q -> 0 of its correlator says (Weysser, thesis, eqs 5.25-5.28). The displacement along x is
 // that from where the flow at the final height has carried: it does not depend on the origin. With
 // e' = (e_x, e_y - strain e_x),
-// dD/dt + int_0^t [e(t').K(t - t').e(t)/e(t')^2] dD/dt' dt' = 2 e(t)^2. Inside itt/ only.
+// dD/dt + D_s int_0^t [e(t').K(t - t').e(t)/e(t')^2] dD/dt' dt' = 2 D_s e(t)^2, D_s its free
+// diffusion coefficient. Inside itt/ only.
 #pragma once
 
 #include "base/archive.h"
@@ -12,18 +13,21 @@
 
 enum { WALK_DIRECTIONS = 4 }; // along x, y, xy and -xy
 
-typedef double Friction[2][2]; // K_ij
+typedef double Friction[2][2]; // D_s K_ij
 
 typedef struct Walk {
     size_t block;
+    double diffusion;
     double *value[WALK_DIRECTIONS], *mean[WALK_DIRECTIONS]; // [block + 1]
     Friction *friction, *friction_mean;                     // [block + 1], by lag
     Friction *friction_moment; // [block + 1]: mean of K times the lag from the middle, in steps
 } Walk;
 
-Status walk_create(Walk *walk, size_t block);
+Status walk_create(Walk *walk, double diffusion, size_t block);
 void walk_free(Walk *walk);
 
+// The friction at i from K there.
+void walk_set_friction(Walk *walk, size_t i, const double friction[2][2]);
 // Time i of the beginning, by its Taylor expansion; the friction at i is there.
 void walk_begin(Walk *walk, size_t i, double step, double shear);
 // Time i from what is known before and the friction at i; `shear` is the strain of an interval.

@@ -103,15 +103,20 @@ static Status put_stages(Results *results, const Plan *plan) {
     return status;
 }
 
+// ": 0.5 small of diameter 1, 0.5 big of diameter 1.4"
+static void add_species(Text *words, const TheorySpecies *species, size_t count) {
+    for (size_t a = 0; a < count; a++)
+        text_add(words, "%s%.6g %s of diameter %.6g", a ? ", " : ": ", species[a].fraction,
+                 species[a].name, species[a].diameter);
+}
+
 // "2 dimensions, structure: percus-yevick, 200 wave numbers up to 40: 0.5 small of diameter 1, ..."
 static Status put_theory(Results *results, const TheoryPlan *theory) {
     Text words = {0};
     text_add(&words, "theory in %d dimensions, structure: %s, %lld wave numbers up to %.6g",
              (int)theory->dimension, theory_structure_name(theory), (long long)theory->wave_numbers,
              theory->last_wave_number);
-    for (size_t a = 0; a < theory->species_count; a++)
-        text_add(&words, "%s%.6g %s of diameter %.6g", a ? ", " : ": ", theory->species[a].fraction,
-                 theory->species[a].name, theory->species[a].diameter);
+    add_species(&words, theory->species, theory->species_count);
     const Status status = results_put_fact(results, "system", text_words(&words));
     text_free(&words);
     return status;
@@ -123,6 +128,7 @@ static Status put_itt(Results *results, const IttPlan *itt) {
     text_add(&words,
              "theory of discs under shear, structure: %s, wave vectors up to %.6g, spacing %.6g",
              itt_structure_name(itt), itt->last_wave_number, itt->spacing);
+    add_species(&words, itt->species, itt->species_count);
     const Status status = results_put_fact(results, "system", text_words(&words));
     text_free(&words);
     return status;

@@ -205,14 +205,18 @@ static bool wants(const TheoryPlan *plan, TheoryPart part) {
     return plan->calculate >> part & 1;
 }
 
-void theory_complete(TheoryPlan *plan) {
+void theory_complete_species(TheorySpecies *species, size_t count) {
     double sum = 0;
     TheorySpecies *rest = NULL;
-    for (size_t a = 0; a < plan->species_count; a++) {
-        sum += plan->species[a].fraction;
-        if (plan->species[a].fraction == 0) rest = &plan->species[a];
+    for (size_t a = 0; a < count; a++) {
+        sum += species[a].fraction;
+        if (species[a].fraction == 0) rest = &species[a];
     }
     if (rest) rest->fraction = fmax(0, 1 - sum);
+}
+
+void theory_complete(TheoryPlan *plan) {
+    theory_complete_species(plan->species, plan->species_count);
     if (plan->input.file[0]) plan->structure = CLOSURE_MEASURED;
 }
 
@@ -226,11 +230,11 @@ size_t theory_slots(const TheoryPlan *plan) {
     return errors ? (size_t)plan->input.groups : 1;
 }
 
-static Status check_fractions(const TheoryPlan *plan) {
-    for (size_t a = 0; a < plan->species_count; a++) {
-        if (!(plan->species[a].fraction > 0))
+Status theory_check_species(const TheorySpecies *species, size_t count) {
+    for (size_t a = 0; a < count; a++) {
+        if (!(species[a].fraction > 0))
             return status_fail(BAD_DATA, "species '%s' has no fraction that the others leave",
-                               plan->species[a].name);
+                               species[a].name);
     }
     return OK;
 }
@@ -251,7 +255,7 @@ static Status check_flow_curve(const TheoryPlan *plan) {
 }
 
 Status theory_check(const TheoryPlan *plan) {
-    TRY(check_fractions(plan));
+    TRY(theory_check_species(plan->species, plan->species_count));
     if (plan->structure == CLOSURE_MEASURED && !plan->input.file[0])
         return status_fail(BAD_DATA, "a measured structure needs a file; write structure: {file: "
                                      "results.h5}");
@@ -281,13 +285,17 @@ Status theory_check(const TheoryPlan *plan) {
     return OK;
 }
 
-Mixture theory_mixture(const TheoryPlan *plan) {
-    Mixture mixture = {.dimension = (int)plan->dimension, .species = plan->species_count};
-    for (size_t a = 0; a < mixture.species; a++) {
-        mixture.diameter[a] = plan->species[a].diameter;
-        mixture.fraction[a] = plan->species[a].fraction;
+Mixture theory_mixture_of(int dimension, const TheorySpecies *species, size_t count) {
+    Mixture mixture = {.dimension = dimension, .species = count};
+    for (size_t a = 0; a < count; a++) {
+        mixture.diameter[a] = species[a].diameter;
+        mixture.fraction[a] = species[a].fraction;
     }
     return mixture;
+}
+
+Mixture theory_mixture(const TheoryPlan *plan) {
+    return theory_mixture_of((int)plan->dimension, plan->species, plan->species_count);
 }
 
 MeasurementsInput theory_input(const TheoryPlan *plan) {

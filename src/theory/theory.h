@@ -59,6 +59,12 @@ typedef struct TheoryPlan {
 extern const OptionTable theory_options;
 extern const OptionTable theory_species_options;
 
+// Species of any theory: a fraction left out is what the others leave; BAD_DATA with a sentence if
+// they leave none.
+void theory_complete_species(TheorySpecies *species, size_t count);
+Status theory_check_species(const TheorySpecies *species, size_t count);
+Mixture theory_mixture_of(int dimension, const TheorySpecies *species, size_t count);
+
 void theory_complete(TheoryPlan *plan);      // what follows from other keys: a fraction left out
 Status theory_check(const TheoryPlan *plan); // BAD_DATA with a sentence
 // Likewise, whether files that are read are there and fit.

@@ -4,6 +4,7 @@
 #include "suite.h"
 
 #include "itt/itt.h"
+#include "itt/transient.h"
 
 #include "oz/oz.h"
 
@@ -96,6 +97,73 @@ START_TEST(pictures_and_cuts_of_the_structure_agree) {
 }
 END_TEST
 
+static IttPlan plan_of_binary(void) {
+    IttPlan plan = plan_of(0.68, 1);
+    plan.structure = CLOSURE_PERCUS_YEVICK;
+    plan.last_strain = 12; // composition at small wave numbers decays late
+    plan.species_count = 2;
+    plan.species[0] = (TheorySpecies){"small", 1, 0.6, 1};
+    plan.species[1] = (TheorySpecies){"big", 1.4, 0.4, 0.7};
+    return plan;
+}
+
+// Rows of pairs, and their total: of what begins at 1 and of what adds up.
+START_TEST(a_mixture_has_rows_of_pairs_and_species) {
+    const IttPlan plan = plan_of_binary();
+    Results *results = run(&plan);
+    const ResultSeries *phi = series(results, "advected_scattering_normalised");
+    const ResultSeries *change = series(results, "structure_factor_cuts_change");
+    ck_assert_uint_eq(phi->axis[0].count, 4);
+    ck_assert_str_eq(phi->axis[0].labels[1], "small-big");
+    ck_assert_str_eq(phi->axis[0].labels[3], "total");
+    const size_t lines = TRANSIENT_DIRECTIONS * phi->axis[2].count, times = phi->axis[3].count;
+    for (size_t i = 0; i < 4 * lines; i++) // at the first time, 1e-3
+        ck_assert_double_eq_tol(phi->values[i * times], 1, 0.1);
+    const size_t row = change->axis[1].count * change->axis[2].count;
+    for (size_t i = 0; i < row; i++) {
+        const double *c = change->values + i;
+        ck_assert_double_eq_tol(c[0] + 2 * c[row] + c[2 * row], c[3 * row], 1e-12);
+    }
+    ck_assert_uint_eq(series(results, "self_scattering")->axis[0].count, 2);
+    ck_assert_double_gt(number(results, "diffusion_across_flow_small"),
+                        number(results, "diffusion_across_flow_big"));
+    results_free(results);
+}
+END_TEST
+
+static void finish(Itt *itt, Results *results) {
+    while (!itt_finished(itt))
+        ck_assert_msg(itt_advance(itt, results) == OK, "%s", status_sentence());
+}
+
+// What was saved in the middle goes on to the same bits.
+START_TEST(a_mixture_goes_on_from_where_it_was_saved) {
+    const IttPlan plan = plan_of_binary();
+    Itt *itt = NULL, *later = NULL;
+    Results *results = NULL, *again = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(results_create(&again, 1), OK);
+    ck_assert_int_eq(itt_create(&itt, &plan), OK);
+    ck_assert_int_eq(itt_create(&later, &plan), OK);
+    while (itt_time(itt) < 0.01) ck_assert_int_eq(itt_advance(itt, results), OK);
+    Archive saved = archive_writer();
+    itt_save(itt, &saved);
+    Archive loaded = archive_reader(saved.bytes, saved.size);
+    ck_assert_msg(itt_load(later, again, &loaded) == OK, "%s", status_sentence());
+    finish(itt, results);
+    finish(later, again);
+    const ResultSeries *one = series(results, "self_scattering");
+    const ResultSeries *other = series(again, "self_scattering");
+    for (size_t i = 0; i < one->size; i++) ck_assert_double_eq(one->values[i], other->values[i]);
+    ck_assert_double_eq(number(results, "shear_stress"), number(again, "shear_stress"));
+    archive_free(&saved);
+    itt_free(itt);
+    itt_free(later);
+    results_free(results);
+    results_free(again);
+}
+END_TEST
+
 START_TEST(what_is_not_asked_for_is_not_there) {
     IttPlan plan = plan_of(0.4, 5);
     plan.tagged = 0;
@@ -152,6 +220,8 @@ int main(void) {
     tcase_set_timeout(tests, 120);
     tcase_add_test(tests, a_glass_has_a_maximum_of_the_stress);
     tcase_add_test(tests, pictures_and_cuts_of_the_structure_agree);
+    tcase_add_test(tests, a_mixture_has_rows_of_pairs_and_species);
+    tcase_add_test(tests, a_mixture_goes_on_from_where_it_was_saved);
     tcase_add_test(tests, what_is_not_asked_for_is_not_there);
     tcase_add_test(tests, a_separation_is_counted_from_the_transition);
     tcase_add_loop_test(tests, the_transition_is_that_of_the_plane_s_cutoff, 0, 2);
