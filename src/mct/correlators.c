@@ -447,7 +447,7 @@ Status correlators_create(Correlators **out, const Grid *grid, const Structure *
     Status status = create(out, grid, structure, settings);
     if (status == OK) status = begin(*out);
     if (status == OK && settings->shear_rate != 0)
-        status = stretch_create(&(*out)->stretch, grid, structure);
+        status = stretch_create(&(*out)->stretch, grid, structure, 0, 0);
     if (status == OK) return OK;
     correlators_free(*out);
     *out = NULL;

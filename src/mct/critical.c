@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The glass transition. Near it phi = phi_c + a2 s^2 + a3 s^3 + ... with s = 1 - E, E the largest
+// The glass transition along x, the packing fraction or another number of a mixture. Near it x =
+// x_c + a2 s^2 + a3 s^3 + ... with s = 1 - E, E the largest
 // eigenvalue of the stability map; lambda, form factors and eigenvectors are power series in s.
 // Five states with s between 0.04 and 0.009 give all of them at s = 0, which bisection never
 // reaches: there form factors converge ever more slowly.
@@ -19,26 +20,32 @@ static const double NEAR = 0.25; // s of a glass from which the states are aimed
 static const double AIMS[] = {0.04, 0.028, 0.02, 0.013, 0.009};
 enum { STATES = 5, BISECTIONS_MOST = 40, TRIES_MOST = 60, LOWERINGS = 6 };
 static const double LOWERING = 0.15;   // of the interval that is searched
-static const double CURVATURE = 0.3;   // of phi/phi_c in s, a guess
+static const double CURVATURE = 0.3;   // of x/x_c in s, a guess
 static const double TOLERANCE = 0.4;   // of what is aimed at: how far a state may lie from it
 static const double NEARER = 0.4;      // of s: what is aimed at from far, lest it be a fluid, which
                                        // takes longest to tell near the transition
-static const double SLOPE_STEP = 1e-3; // of phi/phi_c, for the derivative of sigma
+static const double SLOPE_STEP = 1e-3; // of x/x_c, for the derivative of sigma
 static const double STRAIN = 1e-3;     // for the derivative of sigma with its square
 
+// Places are values of x, with the other sign where the glass lies below the fluid: so it is always
+// above.
 typedef struct CriticalState {
-    double packing_fraction, s, lambda;
+    double place, s, lambda;
     double *form, *right, *left;
 } CriticalState;
 
 typedef struct Search {
+    const CriticalSearch *wanted;
+    MixtureLine line;
+    double sign;   // of places
+    double solved; // place of the mixture whose structure `oz` solves
     Oz *oz;
     Grid *grid;
     Model *model;
     Stability stability;
     double *form;
-    double form_of;               // packing fraction of the glass that it is of; 0: of none
-    double low;                   // the densest fluid known
+    double form_of;               // place of the glass that it is of; 0: of none
+    double low;                   // the fluid known that is nearest to the glass
     double high, s;               // the glass seen last
     double high_before, s_before; // and the one before it; 0: none
     CriticalState states[STATES];
@@ -46,25 +53,58 @@ typedef struct Search {
     size_t evaluations;
 } Search;
 
+static const char *name_of(const CriticalSearch *wanted) {
+    return wanted->name ? wanted->name : "packing fraction";
+}
+
+static bool is_packing(const Search *search) {
+    return search->wanted->axis == MIXTURE_PACKING_FRACTION;
+}
+
+static Status create_oz(Search *search, const Mixture *mixture) {
+    const CriticalSearch *wanted = search->wanted;
+    const double *q = search->grid->wave_number;
+    const size_t count = search->grid->count;
+    oz_free(search->oz);
+    search->oz = NULL;
+    return wanted->measured ? oz_create_measured(&search->oz, wanted->measured, q, count)
+                            : oz_create(&search->oz, wanted->closure, mixture, q, count);
+}
+
+// Along the packing fraction solutions are followed; another mixture is solved anew.
+static Status solve_at(Search *search, double place, const Structure **structure) {
+    Mixture mixture;
+    double packing_fraction;
+    mixture_on(&search->line, search->sign * place, &mixture, &packing_fraction);
+    if (!is_packing(search) && place != search->solved) {
+        TRY(create_oz(search, &mixture));
+        search->solved = place;
+    }
+    return oz_solve(search->oz, packing_fraction, structure);
+}
+
 // The structure of the densest glass to begin with: some closures have no solution as dense as
 // asked for, and are asked for less.
 static Status solve_high(Search *search, const Structure **structure) {
-    Status status = oz_solve(search->oz, search->high, structure);
-    for (int tries = 0; status == UNHEALTHY && tries < LOWERINGS; tries++) {
+    Status status = solve_at(search, search->high, structure);
+    for (int tries = 0; status == UNHEALTHY && is_packing(search) && tries < LOWERINGS; tries++) {
         search->high -= LOWERING * (search->high - search->low);
-        status = oz_solve(search->oz, search->high, structure);
+        status = solve_at(search, search->high, structure);
     }
     return status;
 }
 
 static Status search_create(Search *search, const CriticalSearch *wanted) {
     const Structure *structure = NULL;
-    *search = (Search){.low = wanted->low, .high = wanted->high};
+    *search =
+        (Search){.wanted = wanted,
+                 .line = {wanted->axis, wanted->species, wanted->mixture, wanted->packing_fraction},
+                 .sign = 1,
+                 .solved = NAN,
+                 .low = wanted->low,
+                 .high = wanted->high};
     TRY(grid_create(&search->grid, wanted->mixture.dimension, wanted->count, wanted->last));
-    TRY(wanted->measured ? oz_create_measured(&search->oz, wanted->measured,
-                                              search->grid->wave_number, search->grid->count)
-                         : oz_create(&search->oz, wanted->closure, &wanted->mixture,
-                                     search->grid->wave_number, search->grid->count));
+    TRY(create_oz(search, &wanted->mixture));
     TRY(solve_high(search, &structure));
     TRY(model_create(&search->model, search->grid, structure));
     TRY(stability_create(&search->stability, search->model));
@@ -91,52 +131,75 @@ static void search_free(Search *search) {
 }
 
 // Form factors and, of a glass, its stability.
-static Status look(Search *search, double packing_fraction, bool *glass) {
+static Status look(Search *search, double place, bool *glass) {
     const Structure *structure = NULL;
-    TRY(oz_solve(search->oz, packing_fraction, &structure));
+    TRY(solve_at(search, place, &structure));
     model_set(search->model, structure);
     // From above: the form factors of a denser glass, or S.
-    if (packing_fraction > search->form_of)
-        memcpy(search->form, search->model->factor, search->model->size * sizeof(double));
-    search->form_of = packing_fraction;
+    const bool denser = is_packing(search) && place <= search->form_of;
+    if (!denser) memcpy(search->form, search->model->factor, search->model->size * sizeof(double));
+    search->form_of = place;
     TRY(glass_form_factors(search->model, search->form, glass));
     search->evaluations++;
     if (!*glass) {
         search->form_of = 0;
-        search->low = fmax(search->low, packing_fraction);
+        search->low = fmax(search->low, place);
         return OK;
     }
     TRY(glass_stability(search->model, search->form, &search->stability));
     search->high_before = search->high;
     search->s_before = search->s;
-    search->high = packing_fraction;
+    search->high = place;
     search->s = 1 - search->stability.eigenvalue;
     return OK;
 }
 
-static Status bisect(Search *search, const CriticalSearch *wanted) {
+// Of other numbers than the packing fraction, either end may be the glass.
+static Status look_at_ends(Search *search) {
+    const CriticalSearch *wanted = search->wanted;
+    bool at_high, at_low;
+    TRY(look(search, wanted->high, &at_high));
+    search->low = -INFINITY; // not known to be a fluid
+    TRY(look(search, wanted->low, &at_low));
+    if (at_high == at_low)
+        return status_fail(BAD_DATA,
+                           "%s from %g to %g: at both ends there is a %s, so that no transition is "
+                           "between them, or two; give another search.low and search.high",
+                           name_of(wanted), wanted->low, wanted->high, at_high ? "glass" : "fluid");
+    search->sign = at_high ? 1 : -1;
+    search->low = at_high ? wanted->low : -wanted->high;
+    search->s = 0; // of no glass before
+    return look(search, at_high ? wanted->high : -wanted->low, &at_high);
+}
+
+static Status bisect(Search *search) {
+    const CriticalSearch *wanted = search->wanted;
+    const bool packing = is_packing(search);
     bool glass;
-    TRY(look(search, search->high, &glass));
-    if (!glass)
-        return status_fail(BAD_DATA, "at packing fraction %g there is no glass", search->high);
+    if (!packing) TRY(look_at_ends(search));
+    if (packing) {
+        TRY(look(search, search->high, &glass));
+        if (!glass)
+            return status_fail(BAD_DATA, "at packing fraction %g there is no glass", search->high);
+    }
     for (int step = 0; step < BISECTIONS_MOST && search->s > NEAR; step++)
         TRY(look(search, (search->low + search->high) / 2, &glass));
-    if (search->low > wanted->low) return OK;
+    if (!packing || search->low > wanted->low) return OK;
     TRY(look(search, wanted->low, &glass));
     return glass ? status_fail(BAD_DATA, "at packing fraction %g there is a glass already",
                                wanted->low)
                  : OK;
 }
 
-// phi = sum_n coefficient[n] s^(n > 0 ? n + 1 : 0) through the states: no term linear in s.
-static void fit_packing(const Search *search, double coefficients[STATES]) {
+// place = sum_n coefficient[n] s^(n > 0 ? n + 1 : 0) through the states: no term linear in s.
+static void fit_places(const Search *search, double coefficients[STATES]) {
     const size_t n = search->found;
     gsl_matrix *powers = gsl_matrix_alloc(n, n);
     gsl_vector *values = gsl_vector_alloc(n);
     gsl_permutation *order = gsl_permutation_alloc(n);
     int sign;
     for (size_t i = 0; i < n; i++) {
-        gsl_vector_set(values, i, search->states[i].packing_fraction);
+        gsl_vector_set(values, i, search->states[i].place);
         for (size_t k = 0; k < n; k++)
             gsl_matrix_set(powers, i, k, k == 0 ? 1 : pow(search->states[i].s, (double)k + 1));
     }
@@ -148,28 +211,28 @@ static void fit_packing(const Search *search, double coefficients[STATES]) {
     gsl_permutation_free(order);
 }
 
-// The packing fraction at which s should be this, by what is known so far; halfway to the fluid if
+// The place at which s should be this, by what is known so far; halfway to the fluid if
 // that is no glass.
 static double aim(const Search *search, double s) {
     double coefficients[STATES], next;
     if (search->found > 1) {
-        fit_packing(search, coefficients);
+        fit_places(search, coefficients);
         next = coefficients[0];
         for (size_t k = 1; k < search->found; k++) next += coefficients[k] * pow(s, (double)k + 1);
     } else {
         const double square = search->s * search->s, before = pow(search->s_before, 2);
         const double curvature = search->s_before > 0 && before != square
                                      ? (search->high_before - search->high) / (before - square)
-                                     : CURVATURE * search->high;
+                                     : CURVATURE * fabs(search->high);
         next = search->high - curvature * (square - s * s);
     }
     return next > search->low ? next : (search->low + search->high) / 2;
 }
 
-static void keep(Search *search, double packing_fraction) {
+static void keep(Search *search, double place) {
     CriticalState *state = &search->states[search->found++];
     const size_t bytes = search->model->size * sizeof(double);
-    state->packing_fraction = packing_fraction;
+    state->place = place;
     state->s = search->s;
     state->lambda = search->stability.lambda;
     memcpy(state->form, search->form, bytes);
@@ -183,9 +246,9 @@ static Status gather_states(Search *search) {
         const double next = aim(search, fmax(goal, NEARER * search->s));
         bool glass = false;
         if (tries == TRIES_MOST)
-            return status_fail(UNHEALTHY,
-                               "critical point: lost between packing fractions %.8f and %.8f",
-                               search->low, search->high);
+            return status_fail(UNHEALTHY, "critical point: lost between %s %.8f and %.8f",
+                               name_of(search->wanted), search->sign * search->low,
+                               search->sign * search->high);
         TRY(look(search, next, &glass));
         if (glass && fabs(search->s / goal - 1) < TOLERANCE) keep(search, next);
     }
@@ -235,9 +298,10 @@ static Status extrapolate(Search *search, CriticalPoint *point) {
     double weights[STATES], coefficients[STATES], lambda = 0;
     CriticalState *first = &search->states[0];
     extrapolation(search, weights);
-    fit_packing(search, coefficients);
-    point->packing_fraction = coefficients[0];
-    point->curvature = coefficients[1];
+    fit_places(search, coefficients);
+    point->value = search->sign * coefficients[0];
+    mixture_on(&search->line, point->value, &point->mixture, &point->packing_fraction);
+    point->curvature = search->sign * coefficients[1];
     for (size_t i = 0; i < STATES; i++) lambda += weights[i] * search->states[i].lambda;
     for (size_t m = 0; m < search->model->size; m++) {
         double form = 0, right = 0, left = 0;
@@ -253,43 +317,58 @@ static Status extrapolate(Search *search, CriticalPoint *point) {
     return exponents_of(lambda, &point->exponents);
 }
 
-static Status separation_at(Search *search, double packing_fraction, double *separation) {
+static Status separation_at(Search *search, double place, double *separation) {
     const Structure *structure = NULL;
-    TRY(oz_solve(search->oz, packing_fraction, &structure));
+    TRY(solve_at(search, place, &structure));
     model_set(search->model, structure);
     return glass_separation(search->model, search->states[0].form, search->states[0].left,
                             separation);
 }
 
-// What a strain takes from sigma, over its square, at the transition.
+// c of both vertices at the mean of what it is at rest and at wave numbers that a strain stretches.
+static Status strain_direct(Search *search, const Structure *structure) {
+    const size_t species = search->model->species;
+    for (size_t a = 0; a < species; a++) {
+        for (size_t b = a; b < species; b++) {
+            double *direct =
+                search->model->direct + mixture_pair(species, a, b) * search->grid->stride;
+            Stretch *stretch = NULL;
+            TRY(stretch_create(&stretch, search->grid, structure, a, b));
+            const double *stretched = stretch_direct(stretch, STRAIN);
+            for (size_t m = 0; m < search->grid->count; m++)
+                direct[m] = (direct[m] + stretched[m]) / 2;
+            stretch_free(stretch);
+        }
+    }
+    return OK;
+}
+
+// What a strain takes from sigma, over its square, at the transition. The left vector, symmetric in
+// the species, sees of a kernel with one vertex stretched, c and c', the mean with that of c' and
+// c: M at the mean of c and c' in both vertices, but for a quarter of M at their difference.
 static Status find_shear(Search *search, const Structure *structure, double *shear) {
     Model *model = search->model;
     const CriticalState *critical = &search->states[0];
-    Stretch *stretch = NULL;
     double rest, strained;
-    *shear = NAN;
-    if (model->species > 1) return OK;
     model_set(model, structure);
     TRY(glass_separation(model, critical->form, critical->left, &rest));
-    TRY(stretch_create(&stretch, search->grid, structure));
-    model->stretched = stretch_direct(stretch, STRAIN);
-    const Status status = glass_separation(model, critical->form, critical->left, &strained);
-    model->stretched = NULL;
-    stretch_free(stretch);
-    if (status == OK) *shear = (rest - strained) / (STRAIN * STRAIN);
-    return status;
+    TRY(strain_direct(search, structure));
+    TRY(glass_separation(model, critical->form, critical->left, &strained));
+    model_set(model, structure);
+    *shear = (rest - strained) / (STRAIN * STRAIN);
+    return OK;
 }
 
 static Status finish(Search *search, CriticalPoint *point) {
     double above, below;
     const Structure *structure = NULL;
     TRY(extrapolate(search, point));
-    TRY(separation_at(search, point->packing_fraction * (1 + SLOPE_STEP), &above));
-    TRY(separation_at(search, point->packing_fraction * (1 - SLOPE_STEP), &below));
+    const double place = search->sign * point->value;
+    TRY(separation_at(search, place * (1 + SLOPE_STEP), &above));
+    TRY(separation_at(search, place * (1 - SLOPE_STEP), &below));
     point->slope = (above - below) / (2 * SLOPE_STEP);
-    point->expected_curvature =
-        point->packing_fraction / (4 * point->slope * (1 - point->exponents.lambda));
-    TRY(oz_solve(search->oz, point->packing_fraction, &structure));
+    point->expected_curvature = point->value / (4 * point->slope * (1 - point->exponents.lambda));
+    TRY(solve_at(search, place, &structure));
     TRY(find_shear(search, structure, &point->shear));
     memcpy(point->factor, structure->factor,
            search->model->pairs * point->count * sizeof *point->factor);
@@ -304,7 +383,7 @@ Status critical_find(CriticalPoint **out, const CriticalSearch *wanted) {
     Search search;
     *out = NULL;
     Status status = search_create(&search, wanted);
-    if (status == OK) status = bisect(&search, wanted);
+    if (status == OK) status = bisect(&search);
     if (status == OK) status = gather_states(&search);
     if (status == OK) status = point_create(out, &search);
     if (status == OK) status = finish(&search, *out);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The glass transition along the packing fraction: where it is, and what happens near it.
+// The glass transition along the packing fraction, or another number of a mixture: where it is, and
+// what happens near it.
 #pragma once
 
 #include "mct/exponents.h"
@@ -7,13 +8,15 @@
 
 // Fields are by pairs of species, [pair][count] at the wave numbers of the grid.
 typedef struct CriticalPoint {
-    double packing_fraction;
+    double value; // of what is searched along, x: of the packing fraction, if nothing else
+    Mixture mixture;
+    double packing_fraction; // of the mixture there
     Exponents exponents;
-    double slope; // C: the separation parameter is C (phi - phi_c)/phi_c
+    double slope; // C: the separation parameter is C (x - x_c)/x_c
     // c of sigma - c (rate t)^2 + lambda G^2 = d/dt int GG in the isotropically sheared model
-    // (Weysser, thesis, eqs 5.42-5.43); NAN of a mixture
+    // (Weysser, thesis, eqs 5.42-5.43)
     double shear;
-    // (phi - phi_c)/s^2 for s = 1 - E -> 0 as found, and phi_c/(4 C (1 - lambda)) as it must be
+    // (x - x_c)/s^2 for s = 1 - E -> 0 as found, and x_c/(4 C (1 - lambda)) as it must be
     double curvature, expected_curvature;
     size_t count;
     double *wave_number;
@@ -28,11 +31,16 @@ typedef struct CriticalSearch {
     Closure closure;
     size_t count;             // of wave numbers
     double last;              // the largest of them
-    double low, high;         // packing fractions: a fluid, a glass
+    double low, high;         // values of x, one of a fluid and one of a glass
     const Measured *measured; // structure in place of the closure's; NULL: none
+    MixtureAxis axis;         // what x is; of the packing fraction `low` is the fluid
+    size_t species;           // of other axes; whose ends may lie either way
+    double packing_fraction;  // likewise
+    const char *name;         // of x, for sentences; NULL: "packing fraction"
 } CriticalSearch;
 
-// By bisection, then by extrapolation of states a little above: packing fraction, lambda and all
-// fields are smooth functions of s = 1 - E there. BAD_DATA if `high` is no glass or `low` is one.
+// By bisection, then by extrapolation of states a little on the side of the glass: x, lambda and
+// all fields are smooth functions of s = 1 - E there. BAD_DATA with a sentence unless one end is a
+// glass and the other a fluid.
 Status critical_find(CriticalPoint **out, const CriticalSearch *search);
 void critical_free(CriticalPoint *point);

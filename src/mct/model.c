@@ -88,6 +88,7 @@ Status model_create(Model **out, const Grid *grid, const Structure *structure) {
 void model_set(Model *model, const Structure *structure) {
     const Grid *grid = model->grid;
     const double *fraction = model->mixture.fraction;
+    model->mixture = structure->mixture;
     model->density = structure->density;
     model->packing_fraction = structure->packing_fraction;
     for (size_t pair = 0; pair < model->pairs; pair++) {

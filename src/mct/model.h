@@ -24,7 +24,7 @@ typedef struct Model {
 } Model;
 
 Status model_create(Model **out, const Grid *grid, const Structure *structure);
-// Another structure of the same mixture on the same grid.
+// Another structure of as many species on the same grid.
 void model_set(Model *model, const Structure *structure);
 void model_free(Model *model);
 

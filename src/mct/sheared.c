@@ -22,7 +22,7 @@ static Status begin(Sheared *s, const Grid *grid, const Structure *structure, si
     const CorrelatorSettings settings = {
         .block = block, .diffusion = {1}, .shear_rate = s->shear_rate};
     TRY(correlators_create(&s->correlators, grid, structure, &settings));
-    TRY(stretch_create(&s->stretch, grid, structure));
+    TRY(stretch_create(&s->stretch, grid, structure, 0, 0));
     s->modulus = stretch_modulus(s->stretch, structure->factor, 0);
     return OK;
 }

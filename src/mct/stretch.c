@@ -48,14 +48,16 @@ static double slope_at(const Stretch *stretch, double k) {
            power(stretch) / k * direct_at(stretch, k);
 }
 
-Status stretch_create(Stretch **out, const Grid *grid, const Structure *structure) {
+Status stretch_create(Stretch **out, const Grid *grid, const Structure *structure, size_t a,
+                      size_t b) {
+    const size_t pair = mixture_pair(structure->mixture.species, a, b);
     Stretch *stretch = NULL;
     *out = NULL;
-    ASSERT(structure->mixture.species == 1 && structure->count == grid->count);
+    ASSERT(structure->count == grid->count);
     TRY(NEW(stretch));
     stretch->grid = grid;
     stretch->density = structure->density;
-    stretch->diameter = structure->mixture.diameter[0];
+    stretch->diameter = mixture_contact(&structure->mixture, a, b);
     Status status = NEW_ARRAY(stretch->direct, grid->stride);
     stretch->spline = gsl_spline_alloc(gsl_interp_cspline, grid->count);
     if (status == OK && !stretch->spline)
@@ -64,7 +66,8 @@ Status stretch_create(Stretch **out, const Grid *grid, const Structure *structur
         stretch_free(stretch);
         return status;
     }
-    gsl_spline_init(stretch->spline, grid->wave_number, structure->direct, grid->count);
+    gsl_spline_init(stretch->spline, grid->wave_number, structure->direct + pair * grid->count,
+                    grid->count);
     set_end(stretch);
     *out = stretch;
     return OK;

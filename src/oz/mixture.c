@@ -37,6 +37,16 @@ double mixture_contact(const Mixture *mixture, size_t a, size_t b) {
     return (mixture->diameter[a] + mixture->diameter[b]) / 2;
 }
 
+void mixture_on(const MixtureLine *line, double value, Mixture *mixture, double *packing_fraction) {
+    *mixture = line->mixture;
+    *packing_fraction = line->axis == MIXTURE_PACKING_FRACTION ? value : line->packing_fraction;
+    if (line->axis == MIXTURE_DIAMETER) mixture->diameter[line->species] = value;
+    if (line->axis != MIXTURE_FRACTION) return;
+    const double others = 1 - line->mixture.fraction[line->species];
+    for (size_t a = 0; a < mixture->species; a++) mixture->fraction[a] *= (1 - value) / others;
+    mixture->fraction[line->species] = value;
+}
+
 double mixture_density(const Mixture *mixture, double packing_fraction) {
     double size = 0; // mean area or volume of a particle
     for (size_t a = 0; a < mixture->species; a++) {

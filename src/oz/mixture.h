@@ -20,5 +20,20 @@ Status mixture_check(const Mixture *mixture); // BAD_DATA with a sentence
 size_t mixture_pairs(const Mixture *mixture);
 size_t mixture_pair(size_t species, size_t a, size_t b);            // a and b in either order
 double mixture_contact(const Mixture *mixture, size_t a, size_t b); // distance at contact
+// One number that says, with the others held, which state a mixture is in.
+typedef enum MixtureAxis {
+    MIXTURE_PACKING_FRACTION,
+    MIXTURE_FRACTION, // of one species; the others share the rest as they do
+    MIXTURE_DIAMETER  // of one species; packing fraction and fractions are held
+} MixtureAxis;
+typedef struct MixtureLine {
+    MixtureAxis axis;
+    size_t species; // of the last two
+    Mixture mixture;
+    double packing_fraction;
+} MixtureLine;
+// The mixture and its packing fraction where that number has this value.
+void mixture_on(const MixtureLine *line, double value, Mixture *mixture, double *packing_fraction);
+
 // Particles per unit of area or volume at this packing fraction.
 double mixture_density(const Mixture *mixture, double packing_fraction);

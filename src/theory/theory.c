@@ -80,7 +80,7 @@ static const struct {
     {"separation_slope", "C in sigma = C (phi - phi_c)/phi_c, the separation parameter.", true},
     {"shear_coefficient",
      "c of the beta-scaling equation sigma - c (rate t)^2 + lambda G^2 = d/dt int GG; of the "
-     "theories, in the isotropically sheared model of one species.",
+     "theories, in the isotropically sheared model.",
      true},
 };
 
@@ -97,7 +97,6 @@ static Status put_numbers(const Theory *theory, Results *results, const Numbers 
                           size_t slot) {
     for (size_t i = 0; i < NUMBERS; i++) {
         if (number_rows[i].exponent && !wants(theory, THEORY_EXPONENTS)) continue;
-        if (isnan(numbers->value[i])) continue; // a mixture has no coefficient of shear
         TRY(put_slot(results, number_rows[i].name, number_rows[i].about, slot, numbers->value[i]));
     }
     return OK;

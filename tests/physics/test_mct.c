@@ -154,6 +154,37 @@ START_TEST(the_kernel_with_a_stretched_vertex_is_the_direct_double_integral) {
 }
 END_TEST
 
+// What the coefficient of shear takes of it: c of both vertices at the mean of c and c', less M at
+// half their difference, is the kernel with one vertex stretched, symmetric in the species.
+START_TEST(a_stretched_vertex_of_a_mixture_is_the_mean_of_both) {
+    static const size_t at[] = {0, 3, 20, 35};
+    static const double STRETCH = 1.3;
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        Fixture f = fixture_new(dimension, 2);
+        for (int half = 0; half < 2; half++) {
+            for (size_t i = 0; i < f.model->pairs * f.grid->count; i++) {
+                const size_t pair = i / f.grid->count, m = i % f.grid->count;
+                const double q = f.grid->wave_number[m];
+                f.model->direct[pair * f.grid->stride + m] =
+                    (direct_like(pair, STRETCH * q) + (half ? -1 : 1) * direct_like(pair, q)) / 2;
+            }
+            model_memory(f.model, f.phi, half ? f.back : f.out);
+        }
+        for (size_t i = 0; i < 4; i++) {
+            for (size_t pair = 0; pair < 3; pair++) {
+                const size_t a = pair / 2, b = (pair + 1) / 2, n = pair * f.grid->stride + at[i];
+                const double q = f.grid->wave_number[at[i]];
+                const double direct = (direct_integral(&f, a, b, q, STRETCH) +
+                                       direct_integral(&f, b, a, q, STRETCH)) /
+                                      2;
+                ck_assert_double_eq_tol(f.out[n] - f.back[n], direct, 1e-9 * fabs(f.out[0]));
+            }
+        }
+        fixture_free(&f);
+    }
+}
+END_TEST
+
 START_TEST(slope_is_the_derivative_and_adjoint_its_transpose) {
     static const double STEP = 1e-4;
     for (int which = 0; which < 4; which++) {
@@ -403,6 +434,88 @@ START_TEST(a_bracket_that_holds_no_transition_is_refused) {
     search.high = 0.58;
     ck_assert_int_eq(critical_find(&point, &search), BAD_DATA);
     ck_assert_ptr_null(point);
+    // Along another number the sentence says what is at both ends.
+    search = (CriticalSearch){.mixture = {3, 2, {0.8, 1}, {0.5, 0.5}},
+                              .closure = CLOSURE_PERCUS_YEVICK,
+                              .count = 60,
+                              .last = 30,
+                              .axis = MIXTURE_FRACTION,
+                              .packing_fraction = 0.48,
+                              .low = 0.2,
+                              .high = 0.6,
+                              .name = "theory.species.small.fraction"};
+    ck_assert_int_eq(critical_find(&point, &search), BAD_DATA);
+    ck_assert_ptr_nonnull(
+        strstr(status_sentence(), "theory.species.small.fraction from 0.2 to 0.6"));
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "a fluid"));
+    search.packing_fraction = 0.56;
+    ck_assert_int_eq(critical_find(&point, &search), BAD_DATA);
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "a glass"));
+}
+END_TEST
+
+// Two species that are alike are one: all that is known of the transition, shear among it.
+START_TEST(a_mixture_of_equals_is_one_species) {
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        const double low = dimension == 2 ? 0.6 : 0.45, high = dimension == 2 ? 0.74 : 0.57;
+        CriticalPoint *one = found(
+            &(CriticalSearch){{dimension, 1, {1}, {1}}, CLOSURE_PERCUS_YEVICK, 102, 40, low, high},
+            1e-3);
+        CriticalPoint *two = found(
+            &(CriticalSearch){
+                {dimension, 2, {1, 1}, {0.3, 0.7}}, CLOSURE_PERCUS_YEVICK, 102, 40, low, high},
+            1e-3);
+        ck_assert_double_eq_tol(two->packing_fraction, one->packing_fraction, 1e-7);
+        ck_assert_double_eq_tol(two->exponents.lambda, one->exponents.lambda, 1e-5);
+        ck_assert_double_eq_tol(two->slope, one->slope, 1e-4);
+        ck_assert_double_eq_tol(two->shear, one->shear, 1e-5);
+        critical_free(one);
+        critical_free(two);
+    }
+}
+END_TEST
+
+// A point of the line phi_c(fraction, size ratio) is the same whichever way it is crossed: along
+// the packing fraction to phi_c, then at phi_c along composition and size. Slopes along the line
+// belong together: dsigma = C_x dx/x + C_phi dphi/phi = 0. Here sigma hardly changes with x, so
+// that states with the same s lie up to a tenth of x apart, where x is less of a parabola in s.
+START_TEST(the_transition_is_found_along_any_number) {
+    static const struct {
+        MixtureAxis axis;
+        double value, low, high;
+    } lines[] = {{MIXTURE_FRACTION, 0.5, 0.2, 0.7}, {MIXTURE_DIAMETER, 1.0 / 3, 0.28, 0.5}};
+    const Mixture mixture = {2, 2, {1.0 / 3, 1}, {0.5, 0.5}};
+    CriticalSearch search = {mixture, CLOSURE_PERCUS_YEVICK, 153, 60, 0.6, 0.74};
+    CriticalPoint *point = found(&search, 2e-3);
+    for (int i = 0; i < 2; i++) {
+        CriticalSearch along = search;
+        along.axis = lines[i].axis;
+        along.species = 0;
+        along.packing_fraction = point->packing_fraction;
+        along.low = lines[i].low;
+        along.high = lines[i].high;
+        CriticalPoint *other = found(&along, 0.03);
+        ck_assert_double_eq_tol(other->value, lines[i].value, 1e-5);
+        ck_assert_double_eq_tol(other->packing_fraction, point->packing_fraction, 1e-12);
+        ck_assert_double_eq_tol(other->exponents.lambda, point->exponents.lambda, 2e-4);
+        ck_assert_double_eq_tol(other->shear, point->shear, 2e-3 * point->shear);
+        // A step along the line, either way.
+        static const double STEP = 1e-3;
+        double phi[2];
+        for (int up = 0; up < 2; up++) {
+            CriticalSearch beside = search;
+            mixture_on(&(MixtureLine){along.axis, 0, mixture, 0},
+                       lines[i].value * (1 + (up ? STEP : -STEP)), &beside.mixture, &phi[up]);
+            CriticalPoint *next = found(&beside, 2e-3);
+            phi[up] = next->packing_fraction;
+            critical_free(next);
+        }
+        const double rise = (phi[1] - phi[0]) / (2 * STEP * point->packing_fraction);
+        // What composition does to sigma nearly cancels: errors are those of the parts.
+        ck_assert_double_eq_tol(other->slope, -point->slope * rise, 5e-4 * point->slope);
+        critical_free(other);
+    }
+    critical_free(point);
 }
 END_TEST
 
@@ -439,6 +552,7 @@ int main(void) {
     tcase_set_timeout(tests, 300);
     tcase_add_test(tests, the_kernel_is_the_direct_double_integral);
     tcase_add_test(tests, the_kernel_with_a_stretched_vertex_is_the_direct_double_integral);
+    tcase_add_test(tests, a_stretched_vertex_of_a_mixture_is_the_mean_of_both);
     tcase_add_test(tests, slope_is_the_derivative_and_adjoint_its_transpose);
     tcase_add_test(tests, instruction_sets_agree_to_the_bit);
     tcase_add_test(tests, spheres_freeze_where_another_program_says);
@@ -448,6 +562,8 @@ int main(void) {
     tcase_add_test(tests, closures_freeze_where_another_program_says);
     tcase_add_test(tests, the_transition_converges_in_the_grid);
     tcase_add_test(tests, a_bracket_that_holds_no_transition_is_refused);
+    tcase_add_test(tests, a_mixture_of_equals_is_one_species);
+    tcase_add_test(tests, the_transition_is_found_along_any_number);
     tcase_add_test(tests, exponents_follow_from_lambda);
     suite_add_tcase(suite, tests);
     return run_suite(suite);
