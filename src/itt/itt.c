@@ -12,6 +12,7 @@
 #include "itt/transient.h"
 #include "mct/critical.h"
 #include "oz/oz.h"
+#include "theory/series.h"
 
 #include <math.h>
 
@@ -60,7 +61,7 @@ static Status find_critical(Itt *itt, Results *results) {
     critical_free(point);
     itt->packing_fraction = critical * (1 + itt->plan->separation);
     itt->step = STEP_STRUCTURE;
-    return record_put_number(results, "critical_packing_fraction", "",
+    return theory_put_number(results, "critical_packing_fraction", "",
                              "Packing fraction of the glass transition at rest, with wave numbers "
                              "up to those of the plane.",
                              critical);
@@ -71,7 +72,7 @@ static Status find_critical(Itt *itt, Results *results) {
 static Status tabulate(Itt *itt, Oz *oz, double spacing, Results *results) {
     const Structure *s = NULL;
     TRY(oz_solve(oz, itt->packing_fraction, &s));
-    TRY(record_put_number(results, "packing_fraction", "", "Packing fraction of the discs.",
+    TRY(theory_put_number(results, "packing_fraction", "", "Packing fraction of the discs.",
                           itt->packing_fraction));
     if (itt->measured)
         TRY(results_put_health(results, "structure_misfit",
@@ -247,13 +248,13 @@ static Status advance(Itt *itt, bool *done) {
 
 static Status put_flow(const Itt *itt, Results *results) {
     const double rate = itt->plan->shear_rate, stress = flow_stress(itt->flow);
-    TRY(record_put_number(results, "shear_rate", "D0/d^2", "Shear rate.", rate));
-    TRY(record_put_number(results, "shear_stress", "kT/d^2", "sigma_xy at the last strain.",
+    TRY(theory_put_number(results, "shear_rate", "D0/d^2", "Shear rate.", rate));
+    TRY(theory_put_number(results, "shear_stress", "kT/d^2", "sigma_xy at the last strain.",
                           stress));
-    TRY(record_put_number(results, "normal_stress_difference", "kT/d^2",
+    TRY(theory_put_number(results, "normal_stress_difference", "kT/d^2",
                           "sigma_xx - sigma_yy at the last strain.",
                           flow_normal_difference(itt->flow)));
-    TRY(record_put_number(results, "shear_viscosity", "kT/D0",
+    TRY(theory_put_number(results, "shear_viscosity", "kT/D0",
                           "sigma_xy over the shear rate, without that of the solvent.",
                           stress / rate));
     TRY(results_put_health(
@@ -262,10 +263,10 @@ static Status put_flow(const Itt *itt, Results *results) {
         "end, over the stress",
         UNFINISHED, fabs(flow_modulus(itt->flow) * transient_strain(itt->transient) / stress)));
     const bool passed = itt->overshoot > 0;
-    TRY(record_put_number(results, "largest_stress", "kT/d^2",
+    TRY(theory_put_number(results, "largest_stress", "kT/d^2",
                           "Maximum of the stress after the start of shear, if it has passed one.",
                           passed ? itt->overshoot : NAN));
-    return record_put_number(results, "strain_at_largest_stress", "",
+    return theory_put_number(results, "strain_at_largest_stress", "",
                              "Strain at the maximum of the stress.",
                              passed ? itt->strain_at_overshoot : NAN);
 }
@@ -282,7 +283,7 @@ static Status put_diffusion(const Itt *itt, Results *results) {
         const size_t across = s * TRANSIENT_DIRECTIONS + 1;
         diffusion[s] = (last[across] - before[across]) / time / 2;
     }
-    return record_put_each(r, results, "diffusion_across_flow", "D0",
+    return theory_put_each(results, r->species, r->species_count, "diffusion_across_flow", "D0",
                            "Slope of the displacement along y over 2 t, at the last strain.",
                            diffusion);
 }
@@ -290,7 +291,7 @@ static Status put_diffusion(const Itt *itt, Results *results) {
 static Status put_structure(const Itt *itt, Results *results) {
     const size_t species = itt->record.species_count, size = itt->plane->size;
     double *rest = NULL;
-    TRY(NEW_ARRAY(rest, species * (species + 1) / 2 * size));
+    TRY(NEW_ARRAY(rest, mixture_pairs(&itt->direct->mixture) * size));
     for (size_t k = 0; k < size; k++) {
         SmallMatrix factor;
         direct_factor(itt->direct, hypot(itt->plane->x[k], itt->plane->y[k]), factor);

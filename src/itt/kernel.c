@@ -13,6 +13,7 @@
 #include "itt/matrix.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { F, FC, CF, CFC, PRODUCTS };   // of matrices: what is transformed, but for components
 enum { A, BX, BY, EX, EY, SOURCES }; // in space, of one pair
@@ -55,24 +56,34 @@ static Status allocate(Kernel *k) {
     return NEW_ARRAY(k->scale, size);
 }
 
-// c and S at all wave vectors after this strain. Between the columns q = 0.
-static void fill_structure(const Kernel *k, double strain, double *c, double *factor) {
+// c_ab and the entry of the inverse of S at all wave vectors after this strain.
+static void fill_pair(const Kernel *k, size_t a, size_t b, double strain, double *c,
+                      double *inverse) {
     const Plane *plane = k->plane;
     const Direct *direct = k->direct;
+    const size_t pair = mixture_pair(k->species, a, b);
+    const double ideal = a == b ? 1 / direct->mixture.fraction[a] : 0;
+    for (size_t i = 0; i < plane->size; i++) {
+        const double x = plane->x[i], y = plane->y[i] - strain * x;
+        c[i] = direct_value(direct, pair, sqrt(x * x + y * y));
+        inverse[i] = ideal - direct->density * c[i];
+    }
+}
+
+// c and S likewise. Between the columns q = 0.
+static void fill_structure(const Kernel *k, double strain, double *c, double *factor) {
+    const size_t size = k->plane->size;
+    double *const matrices[] = {c, factor};
     for (size_t a = 0; a < k->species; a++) {
-        for (size_t b = 0; b < k->species; b++) {
-            const size_t pair = mixture_pair(k->species, a, b);
-            const double ideal = a == b ? 1 / direct->mixture.fraction[a] : 0;
-            double *value = matrix_entry(c, k->species, plane->size, a, b);
-            double *inverse = matrix_entry(factor, k->species, plane->size, a, b);
-            for (size_t i = 0; i < plane->size; i++) {
-                const double x = plane->x[i], y = plane->y[i] - strain * x;
-                value[i] = direct_value(direct, pair, sqrt(x * x + y * y));
-                inverse[i] = ideal - direct->density * value[i];
-            }
+        for (size_t b = a; b < k->species; b++) {
+            fill_pair(k, a, b, strain, matrix_entry(c, k->species, size, a, b),
+                      matrix_entry(factor, k->species, size, a, b));
+            for (int m = 0; b > a && m < 2; m++)
+                memcpy(matrix_entry(matrices[m], k->species, size, b, a),
+                       matrix_read(matrices[m], k->species, size, a, b), size * sizeof(double));
         }
     }
-    matrix_invert(k->species, plane->size, factor);
+    matrix_invert(k->species, size, factor);
 }
 
 Status kernel_create(Kernel **out, const Plane *plane, const Direct *direct,
@@ -258,12 +269,11 @@ void kernel_tagged(Kernel *k, size_t species, const double *tagged, double *memo
     collect(k, 1, memory);
 }
 
-void kernel_displacement(Kernel *k, size_t species, const double *phi, const double *tagged,
+void kernel_displacement(const Kernel *k, size_t species, const double *tagged,
                          double friction[2][2]) {
     const Plane *plane = k->plane;
     const double *vertex = product_of(k, CFC, species, species);
     double xx = 0, xy = 0, yy = 0;
-    multiply_matrices(k, phi);
     for (size_t i = 0; i < plane->size; i++) {
         const double f = plane->area[i] * vertex[i] * tagged[i];
         xx += f * plane->x[i] * plane->x[i];

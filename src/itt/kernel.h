@@ -35,6 +35,6 @@ void kernel_memory(Kernel *kernel, const double *phi, double *memory);
 // those of the last call of kernel_memory.
 void kernel_tagged(Kernel *kernel, size_t species, const double *tagged, double *memory);
 // rho int d^2k/(2 pi)^2 k_i k'_j (c' F c)_ss Phi^s, for displacements: sum_ij q_i(t') q_j(t)
-// friction_ij is the kernel of q -> 0 but for q(t')^2.
-void kernel_displacement(Kernel *kernel, size_t species, const double *phi, const double *tagged,
+// friction_ij is the kernel of q -> 0 but for q(t')^2. Collective correlators as of kernel_tagged.
+void kernel_displacement(const Kernel *kernel, size_t species, const double *tagged,
                          double friction[2][2]);

@@ -3,11 +3,9 @@
 #include "itt/put.h"
 
 #include "base/memory.h"
+#include "theory/series.h"
 
 #include <math.h>
-#include <stdio.h>
-
-#define STAGE "theory"
 
 static const double PICTURE_LAST = 14; // in 1/d, of the picture of S(q) and of its cuts
 
@@ -69,66 +67,8 @@ void record_archive(Record *r, Archive *archive) {
     archive_f64(archive, r->displacement, r->times * r->species_count * directions);
 }
 
-Status record_put_number(Results *results, const char *name, const char *unit, const char *about,
-                         double value) {
-    return results_put_scalar(results, STAGE, name, unit, about, 0, value);
-}
-
-Status record_put_each(const Record *r, Results *results, const char *name, const char *unit,
-                       const char *about, const double *values) {
-    for (size_t a = 0; a < r->species_count; a++) {
-        char full[RESULT_NAME];
-        snprintf(full, sizeof full, "%.28s_%s", name, r->species[a].name);
-        TRY(record_put_number(results, r->species_count > 1 ? full : name, unit, about, values[a]));
-    }
-    return OK;
-}
-
-// "small-small", "small-big", "big-big", "total"; of one species "total" alone.
-typedef struct Labels {
-    size_t count;
-    const char *names[MIXTURE_PAIRS_MOST + 1]; // point into `text`
-    char text[MIXTURE_PAIRS_MOST + 1][2 * THEORY_NAME_SIZE];
-} Labels;
-
-static void append(Labels *labels, const char *first, const char *dash, const char *second) {
-    char *text = labels->text[labels->count];
-    snprintf(text, sizeof labels->text[0], "%s%s%s", first, dash, second);
-    labels->names[labels->count++] = text;
-}
-
-static void label_rows(Labels *labels, const Record *r) {
-    labels->count = 0;
-    for (size_t a = 0; a < r->species_count && r->rows > 1; a++) {
-        for (size_t b = a; b < r->species_count; b++)
-            append(labels, r->species[a].name, "-", r->species[b].name);
-    }
-    append(labels, "total", "", "");
-}
-
-static void label_species(Labels *labels, const Record *r) {
-    labels->count = 0;
-    for (size_t a = 0; a < r->species_count; a++) append(labels, r->species[a].name, "", "");
-}
-
-static ResultSeries shape_of(const char *name, const char *unit, const char *about) {
-    ResultSeries shape = {.stage = STAGE};
-    snprintf(shape.observable, sizeof shape.observable, "%s", name);
-    snprintf(shape.unit, sizeof shape.unit, "%s", unit);
-    snprintf(shape.about, sizeof shape.about, "%s", about);
-    return shape;
-}
-
-static void add_labels(ResultSeries *shape, const char *name, size_t count,
-                       const char *const *labels) {
-    shape->axis[shape->axes++] =
-        (ResultAxis){.name = name, .unit = "", .count = count, .labels = labels};
-}
-
-static void add_numbers(ResultSeries *shape, const char *name, const char *unit, size_t count,
-                        const double *values) {
-    shape->axis[shape->axes++] =
-        (ResultAxis){.name = name, .unit = unit, .count = count, .values = values};
+static void label_rows(TheoryLabels *labels, const Record *r) {
+    theory_label_pairs(labels, r->species, r->rows > 1 ? r->species_count : 0);
 }
 
 // [time][line] as [line][time].
@@ -136,9 +76,7 @@ static Status put_turned(Results *results, const ResultSeries *shape, const doub
                          size_t times, size_t lines) {
     double *values = NULL;
     TRY(NEW_ARRAY(values, times * lines));
-    for (size_t t = 0; t < times; t++) {
-        for (size_t i = 0; i < lines; i++) values[i * times + t] = kept[t * lines + i];
-    }
+    theory_turn(kept, times, lines, values);
     const Status status = results_put_series(results, shape, 0, values);
     memory_free(values);
     return status;
@@ -146,39 +84,39 @@ static Status put_turned(Results *results, const ResultSeries *shape, const doub
 
 static Status put_correlators(const Record *r, Results *results, const double *kept,
                               const char *name, const char *about, const char *axis,
-                              const Labels *labels) {
-    ResultSeries shape = shape_of(name, "", about);
-    add_labels(&shape, axis, labels->count, labels->names);
-    add_labels(&shape, "direction", TRANSIENT_DIRECTIONS, transient_direction);
-    add_numbers(&shape, "wave_number", "1/d", r->waves, r->wave_number);
-    add_numbers(&shape, "time", "d^2/D0", r->times, r->time);
+                              const TheoryLabels *labels) {
+    ResultSeries shape = theory_series(name, "", about);
+    theory_add_labels(&shape, axis, labels->count, labels->names);
+    theory_add_labels(&shape, "direction", TRANSIENT_DIRECTIONS, transient_direction);
+    theory_add_numbers(&shape, "wave_number", "1/d", r->waves, r->wave_number);
+    theory_add_numbers(&shape, "time", "d^2/D0", r->times, r->time);
     return put_turned(results, &shape, kept, r->times,
                       labels->count * TRANSIENT_DIRECTIONS * r->waves);
 }
 
-static Status put_displacement(const Record *r, Results *results, const Labels *labels) {
-    ResultSeries shape = shape_of(
+static Status put_displacement(const Record *r, Results *results, const TheoryLabels *labels) {
+    ResultSeries shape = theory_series(
         "advected_displacement", "d^2",
         "Mean squared displacement of a tagged particle along directions; along x from where the "
         "flow at its final height has carried it.");
-    add_labels(&shape, "species", labels->count, labels->names);
-    add_labels(&shape, "direction", TRANSIENT_DIRECTIONS, transient_direction);
-    add_numbers(&shape, "time", "d^2/D0", r->times, r->time);
+    theory_add_labels(&shape, "species", labels->count, labels->names);
+    theory_add_labels(&shape, "direction", TRANSIENT_DIRECTIONS, transient_direction);
+    theory_add_numbers(&shape, "time", "d^2/D0", r->times, r->time);
     return put_turned(results, &shape, r->displacement, r->times,
                       labels->count * TRANSIENT_DIRECTIONS);
 }
 
 Status record_put(const Record *r, Results *results) {
-    Labels labels;
-    ResultSeries stress =
-        shape_of("stress", "kT/d^2", "Stress after the start of shear, as a function of strain.");
-    add_labels(&stress, "stress", 2, STRESSES);
-    add_numbers(&stress, "strain", "", r->strains, r->strain);
+    TheoryLabels labels;
+    ResultSeries stress = theory_series(
+        "stress", "kT/d^2", "Stress after the start of shear, as a function of strain.");
+    theory_add_labels(&stress, "stress", 2, STRESSES);
+    theory_add_numbers(&stress, "strain", "", r->strains, r->strain);
     TRY(put_turned(results, &stress, r->stress, r->strains, 2));
     ResultSeries modulus =
-        shape_of("transient_modulus", "kT/d^2",
-                 "G(t) under shear: the stress is the shear rate times its integral.");
-    add_numbers(&modulus, "time", "d^2/D0", r->times, r->time);
+        theory_series("transient_modulus", "kT/d^2",
+                      "G(t) under shear: the stress is the shear rate times its integral.");
+    theory_add_numbers(&modulus, "time", "d^2/D0", r->times, r->time);
     TRY(results_put_series(results, &modulus, 0, r->modulus));
     label_rows(&labels, r);
     TRY(put_correlators(r, results, r->collective, "advected_scattering_normalised",
@@ -187,7 +125,7 @@ Status record_put(const Record *r, Results *results) {
                         "and F_ba, which differ, are averaged.",
                         "pair", &labels));
     if (!r->tagged) return OK;
-    label_species(&labels, r);
+    theory_label_species(&labels, r->species, r->species_count);
     TRY(put_correlators(r, results, r->tagged, "self_scattering",
                         "Transient correlators of a tagged particle along directions of q at the "
                         "start of shear.",
@@ -224,8 +162,8 @@ static Status put_picture(const Record *r, Results *results, const Plane *plane,
                           const char *name, const char *about) {
     const int half = (int)(fmin(PICTURE_LAST, plane->cutoff / 1.5) / plane->spacing);
     const size_t side = 2 * (size_t)half + 1, square = side * side;
-    ResultSeries shape = shape_of(name, "", about);
-    Labels labels;
+    ResultSeries shape = theory_series(name, "", about);
+    TheoryLabels labels;
     double *values = NULL, *along = NULL;
     Status status = NEW_ARRAY(values, r->rows * square);
     if (status == OK) status = NEW_ARRAY(along, side);
@@ -236,9 +174,9 @@ static Status put_picture(const Record *r, Results *results, const Plane *plane,
         values[k] = rows[k / square * plane->size + at];
     }
     label_rows(&labels, r);
-    add_labels(&shape, "pair", labels.count, labels.names);
-    add_numbers(&shape, "wave_number_x", "1/d", side, along);
-    add_numbers(&shape, "wave_number_y", "1/d", side, along);
+    theory_add_labels(&shape, "pair", labels.count, labels.names);
+    theory_add_numbers(&shape, "wave_number_x", "1/d", side, along);
+    theory_add_numbers(&shape, "wave_number_y", "1/d", side, along);
     if (status == OK) status = results_put_series(results, &shape, 0, values);
     memory_free(values);
     memory_free(along);
@@ -249,8 +187,8 @@ static Status put_cuts(const Record *r, Results *results, const Plane *plane, co
                        const char *name, const char *about) {
     const size_t count = (size_t)(fmin(PICTURE_LAST, plane->cutoff / 1.5) / plane->spacing);
     const size_t cuts = TRANSIENT_DIRECTIONS * count;
-    ResultSeries shape = shape_of(name, "", about);
-    Labels labels;
+    ResultSeries shape = theory_series(name, "", about);
+    TheoryLabels labels;
     double *values = NULL, *along = NULL;
     Status status = NEW_ARRAY(values, r->rows * cuts);
     if (status == OK) status = NEW_ARRAY(along, count);
@@ -261,9 +199,9 @@ static Status put_cuts(const Record *r, Results *results, const Plane *plane, co
         values[k] = plane_read(plane, rows + k / cuts * plane->size, x, y);
     }
     label_rows(&labels, r);
-    add_labels(&shape, "pair", labels.count, labels.names);
-    add_labels(&shape, "direction", TRANSIENT_DIRECTIONS, transient_direction);
-    add_numbers(&shape, "wave_number", "1/d", count, along);
+    theory_add_labels(&shape, "pair", labels.count, labels.names);
+    theory_add_labels(&shape, "direction", TRANSIENT_DIRECTIONS, transient_direction);
+    theory_add_numbers(&shape, "wave_number", "1/d", count, along);
     if (status == OK) status = results_put_series(results, &shape, 0, values);
     memory_free(values);
     memory_free(along);

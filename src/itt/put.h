@@ -28,11 +28,6 @@ void record_free(Record *record);
 void record_archive(Record *record, Archive *archive);
 
 Status record_put(const Record *record, Results *results);
-Status record_put_number(Results *results, const char *name, const char *unit, const char *about,
-                         double value);
-// Of each species, under the name with that of the species where there are several.
-Status record_put_each(const Record *record, Results *results, const char *name, const char *unit,
-                       const char *about, const double *values);
 
 // S_ab(q) under shear and its change, on the plane and along its cuts, [pair][size of the plane];
 // `rest` is S at rest.

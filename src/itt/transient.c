@@ -55,8 +55,7 @@ static void tagged_kernel(Transient *t, size_t s, size_t i) {
 
 static void set_friction(Transient *t, size_t s, size_t i) {
     double friction[2][2];
-    kernel_displacement(t->kernel, s, relaxation_phi(&t->collective, i),
-                        relaxation_phi(&t->tagged[s], i), friction);
+    kernel_displacement(t->kernel, s, relaxation_phi(&t->tagged[s], i), friction);
     walk_set_friction(&t->walk[s], i, friction);
 }
 

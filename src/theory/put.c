@@ -3,6 +3,7 @@
 #include "theory/put.h"
 
 #include "base/memory.h"
+#include "theory/series.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,57 +11,22 @@
 
 #define STAGE "theory"
 
-// "small-small", "small-big", "big-big", and "total", their sum over ordered pairs.
-typedef struct Labels {
-    size_t count;
-    const char *names[MIXTURE_PAIRS_MOST + 1]; // point into `text`
-    char text[MIXTURE_PAIRS_MOST + 1][2 * THEORY_NAME_SIZE];
-} Labels;
-
-static void append(Labels *labels, const char *first, const char *dash, const char *second) {
-    char *text = labels->text[labels->count];
-    snprintf(text, sizeof labels->text[0], "%s%s%s", first, dash, second);
-    labels->names[labels->count++] = text;
+static void add_pairs(ResultSeries *series, TheoryLabels *labels, const TheoryPlan *plan) {
+    theory_label_pairs(labels, plan->species, plan->species_count);
+    theory_add_labels(series, "pair", labels->count, labels->names);
 }
 
-static void label_pairs(Labels *labels, const TheoryPlan *plan) {
-    labels->count = 0;
-    for (size_t a = 0; a < plan->species_count; a++) {
-        for (size_t b = a; b < plan->species_count; b++)
-            append(labels, plan->species[a].name, "-", plan->species[b].name);
-    }
-    append(labels, "total", "", "");
+static void add_species(ResultSeries *series, TheoryLabels *labels, const TheoryPlan *plan) {
+    theory_label_species(labels, plan->species, plan->species_count);
+    theory_add_labels(series, "species", labels->count, labels->names);
 }
 
-static void label_species(Labels *labels, const TheoryPlan *plan) {
-    labels->count = 0;
-    for (size_t a = 0; a < plan->species_count; a++) append(labels, plan->species[a].name, "", "");
+static void add_waves(ResultSeries *series, const double *wave_number, size_t count) {
+    theory_add_numbers(series, "wave_number", "1/d", count, wave_number);
 }
 
-// `about` where the name stands for something else in a simulation; else empty.
-static ResultSeries shape_of(const char *name, const char *unit, const char *about) {
-    ResultSeries shape = {.stage = STAGE};
-    snprintf(shape.observable, sizeof shape.observable, "%s", name);
-    snprintf(shape.unit, sizeof shape.unit, "%s", unit);
-    snprintf(shape.about, sizeof shape.about, "%s", about);
-    return shape;
-}
-
-static void add_axis(ResultSeries *shape, ResultAxis axis) {
-    shape->axis[shape->axes++] = axis;
-}
-
-static ResultAxis labels_axis(const char *name, const Labels *labels) {
-    return (ResultAxis){.name = name, .unit = "", .count = labels->count, .labels = labels->names};
-}
-
-static ResultAxis wave_axis(const double *wave_number, size_t count) {
-    return (ResultAxis){
-        .name = "wave_number", .unit = "1/d", .count = count, .values = wave_number};
-}
-
-static ResultAxis time_axis(const char *unit, const double *time, size_t count) {
-    return (ResultAxis){.name = "time", .unit = unit, .count = count, .values = time};
+static void add_times(ResultSeries *series, const Kept *kept) {
+    theory_add_numbers(series, "time", "d^2/D0", kept->times, kept->time);
 }
 
 // Into all[pair][at], and their sum over ordered pairs into the last line.
@@ -78,15 +44,14 @@ static void fill_total(const TheoryPlan *plan, double *all, size_t count) {
 
 Status put_pairs(Results *results, const TheoryPlan *plan, const char *name,
                  const double *wave_number, size_t count, const double *values) {
-    Labels labels;
+    TheoryLabels labels;
     double *all = NULL;
-    ResultSeries shape = shape_of(name, "", "");
-    label_pairs(&labels, plan);
+    ResultSeries shape = theory_series(name, "", "");
+    add_pairs(&shape, &labels, plan);
     TRY(NEW_ARRAY(all, labels.count * count));
     memcpy(all, values, (labels.count - 1) * count * sizeof *all);
     fill_total(plan, all, count);
-    add_axis(&shape, labels_axis("pair", &labels));
-    add_axis(&shape, wave_axis(wave_number, count));
+    add_waves(&shape, wave_number, count);
     const Status status = results_put_series(results, &shape, 0, all);
     memory_free(all);
     return status;
@@ -94,23 +59,11 @@ Status put_pairs(Results *results, const TheoryPlan *plan, const char *name,
 
 Status put_species(Results *results, const TheoryPlan *plan, const char *name,
                    const double *wave_number, size_t count, const double *values) {
-    Labels labels;
-    ResultSeries shape = shape_of(name, "", "");
-    label_species(&labels, plan);
-    add_axis(&shape, labels_axis("species", &labels));
-    add_axis(&shape, wave_axis(wave_number, count));
+    TheoryLabels labels;
+    ResultSeries shape = theory_series(name, "", "");
+    add_species(&shape, &labels, plan);
+    add_waves(&shape, wave_number, count);
     return results_put_series(results, &shape, 0, values);
-}
-
-Status put_each(Results *results, const TheoryPlan *plan, const char *name, const char *unit,
-                const char *about, const double *values) {
-    for (size_t a = 0; a < plan->species_count; a++) {
-        char full[RESULT_NAME];
-        snprintf(full, sizeof full, "%.28s_%s", name, plan->species[a].name);
-        TRY(results_put_scalar(results, STAGE, plan->species_count > 1 ? full : name, unit, about,
-                               0, values[a]));
-    }
-    return OK;
 }
 
 Status put_contacts(Results *results, const TheoryPlan *plan, const Structure *structure) {
@@ -120,18 +73,13 @@ Status put_contacts(Results *results, const TheoryPlan *plan, const Structure *s
             char name[RESULT_NAME];
             snprintf(name, sizeof name, "contact_value_%s_%s", plan->species[a].name,
                      plan->species[b].name);
-            TRY(put_number(results, name, "", "Pair distribution at contact.",
-                           structure->contact[mixture_pair(plan->species_count, a, b)]));
+            TRY(theory_put_number(results, name, "", "Pair distribution at contact.",
+                                  structure->contact[mixture_pair(plan->species_count, a, b)]));
         }
     }
-    return put_number(results, "compressibility_factor_contact", "",
-                      "P V/(N kT) from the pair distributions at contact.",
-                      oz_compressibility_factor(structure));
-}
-
-Status put_number(Results *results, const char *name, const char *unit, const char *about,
-                  double value) {
-    return results_put_scalar(results, STAGE, name, unit, about, 0, value);
+    return theory_put_number(results, "compressibility_factor_contact", "",
+                             "P V/(N kT) from the pair distributions at contact.",
+                             oz_compressibility_factor(structure));
 }
 
 Status put_slot(Results *results, const char *name, const char *about, size_t slot, double value) {
@@ -140,64 +88,53 @@ Status put_slot(Results *results, const char *name, const char *about, size_t sl
 
 Status put_curve(Results *results, const char *name, const char *unit_of_time, const double *time,
                  size_t count, const double *values) {
-    ResultSeries shape = shape_of(name, "", "");
-    add_axis(&shape, time_axis(unit_of_time, time, count));
+    ResultSeries shape = theory_series(name, "", "");
+    theory_add_numbers(&shape, "time", unit_of_time, count, time);
     return results_put_series(results, &shape, 0, values);
 }
 
 Status put_rates(Results *results, const char *name, const TheoryPlan *plan, const double *rate,
                  size_t count, const double *stress) {
-    ResultSeries shape = shape_of(name, plan->dimension == 2 ? "kT/d^2" : "kT/d^3", "");
-    add_axis(&shape,
-             (ResultAxis){.name = "shear_rate", .unit = "D0/d^2", .count = count, .values = rate});
+    ResultSeries shape = theory_series(name, plan->dimension == 2 ? "kT/d^2" : "kT/d^3", "");
+    theory_add_numbers(&shape, "shear_rate", "D0/d^2", count, rate);
     return results_put_series(results, &shape, 0, stress);
-}
-
-// [time][line][wave] as [line][wave][time].
-static void turn(const double *kept, size_t times, size_t lines, double *out) {
-    for (size_t t = 0; t < times; t++) {
-        for (size_t i = 0; i < lines; i++) out[i * times + t] = kept[t * lines + i];
-    }
 }
 
 static Status put_collective(Results *results, const TheoryPlan *plan, const Kept *kept,
                              const char *name, double *values) {
-    Labels labels;
-    ResultSeries shape = shape_of(name, "", "");
-    label_pairs(&labels, plan);
-    turn(kept->collective, kept->times, (labels.count - 1) * kept->waves, values);
+    TheoryLabels labels;
+    ResultSeries shape = theory_series(name, "", "");
+    add_pairs(&shape, &labels, plan);
+    theory_turn(kept->collective, kept->times, (labels.count - 1) * kept->waves, values);
     fill_total(plan, values, kept->waves * kept->times);
-    add_axis(&shape, labels_axis("pair", &labels));
-    add_axis(&shape, wave_axis(kept->wave_number, kept->waves));
-    add_axis(&shape, time_axis("d^2/D0", kept->time, kept->times));
+    add_waves(&shape, kept->wave_number, kept->waves);
+    add_times(&shape, kept);
     return results_put_series(results, &shape, 0, values);
 }
 
 static const char *const MEAN[] = {"mean"}, *const TOTAL[] = {"total"};
 
 static Status put_self(Results *results, const TheoryPlan *plan, const Kept *kept, double *values) {
-    Labels labels;
-    ResultSeries shape = shape_of("self_scattering", "",
-                                  "Self-intermediate scattering function of a tagged particle.");
-    label_species(&labels, plan);
-    turn(kept->self, kept->times, labels.count * kept->waves, values);
-    add_axis(&shape, labels_axis("species", &labels));
-    add_axis(&shape, (ResultAxis){.name = "direction", .unit = "", .count = 1, .labels = MEAN});
-    add_axis(&shape, wave_axis(kept->wave_number, kept->waves));
-    add_axis(&shape, time_axis("d^2/D0", kept->time, kept->times));
+    TheoryLabels labels;
+    ResultSeries shape = theory_series(
+        "self_scattering", "", "Self-intermediate scattering function of a tagged particle.");
+    add_species(&shape, &labels, plan);
+    theory_turn(kept->self, kept->times, labels.count * kept->waves, values);
+    theory_add_labels(&shape, "direction", 1, MEAN);
+    add_waves(&shape, kept->wave_number, kept->waves);
+    add_times(&shape, kept);
     return results_put_series(results, &shape, 0, values);
 }
 
 static Status put_displacement(Results *results, const TheoryPlan *plan, const Kept *kept,
                                double *values) {
-    Labels labels;
-    ResultSeries shape = shape_of("mean_squared_displacement", "d^2",
-                                  "Mean squared displacement of a tagged particle.");
-    label_species(&labels, plan);
-    turn(kept->displacement, kept->times, labels.count, values);
-    add_axis(&shape, labels_axis("species", &labels));
-    add_axis(&shape, (ResultAxis){.name = "direction", .unit = "", .count = 1, .labels = TOTAL});
-    add_axis(&shape, time_axis("d^2/D0", kept->time, kept->times));
+    TheoryLabels labels;
+    ResultSeries shape = theory_series("mean_squared_displacement", "d^2",
+                                       "Mean squared displacement of a tagged particle.");
+    add_species(&shape, &labels, plan);
+    theory_turn(kept->displacement, kept->times, labels.count, values);
+    theory_add_labels(&shape, "direction", 1, TOTAL);
+    add_times(&shape, kept);
     return results_put_series(results, &shape, 0, values);
 }
 
@@ -230,19 +167,18 @@ static void normalise(const TheoryPlan *plan, const Kept *kept, double *values) 
 }
 
 Status put_normalised(Results *results, const TheoryPlan *plan, const Kept *kept) {
-    Labels labels;
+    TheoryLabels labels;
     double *values = NULL;
-    ResultSeries shape =
-        shape_of("collective_scattering_normalised", "",
-                 "Collective intermediate scattering functions, each over its value at t = 0.");
-    label_pairs(&labels, plan);
+    ResultSeries shape = theory_series(
+        "collective_scattering_normalised", "",
+        "Collective intermediate scattering functions, each over its value at t = 0.");
+    add_pairs(&shape, &labels, plan);
     TRY(NEW_ARRAY(values, labels.count * kept->waves * kept->times));
-    turn(kept->collective, kept->times, (labels.count - 1) * kept->waves, values);
+    theory_turn(kept->collective, kept->times, (labels.count - 1) * kept->waves, values);
     fill_total(plan, values, kept->waves * kept->times);
     normalise(plan, kept, values);
-    add_axis(&shape, labels_axis("pair", &labels));
-    add_axis(&shape, wave_axis(kept->wave_number, kept->waves));
-    add_axis(&shape, time_axis("d^2/D0", kept->time, kept->times));
+    add_waves(&shape, kept->wave_number, kept->waves);
+    add_times(&shape, kept);
     const Status status = results_put_series(results, &shape, 0, values);
     memory_free(values);
     return status;

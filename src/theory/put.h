@@ -14,11 +14,6 @@ Status put_pairs(Results *results, const TheoryPlan *plan, const char *name,
 // On species and wave_number, values [species][count].
 Status put_species(Results *results, const TheoryPlan *plan, const char *name,
                    const double *wave_number, size_t count, const double *values);
-// One value per species.
-Status put_each(Results *results, const TheoryPlan *plan, const char *name, const char *unit,
-                const char *about, const double *values);
-Status put_number(Results *results, const char *name, const char *unit, const char *about,
-                  double value);
 // Pair distributions at contact and the pressure that follows from them, unless the closed form has
 // none.
 Status put_contacts(Results *results, const TheoryPlan *plan, const Structure *structure);

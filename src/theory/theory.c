@@ -12,6 +12,7 @@
 #include "oz/oz.h"
 #include "theory/input.h"
 #include "theory/put.h"
+#include "theory/series.h"
 
 #include <math.h>
 #include <string.h>
@@ -185,13 +186,13 @@ static Status solve_structure(Theory *theory, Results *results) {
         TRY(results_put_health(results, "structure_misfit",
                                "mean square of (c - fit)/error of the measured structure", NAN,
                                measured_misfit(theory->measured)));
-    TRY(put_number(results, "packing_fraction", "", "Packing fraction of the state.",
-                   packing_fraction));
+    TRY(theory_put_number(results, "packing_fraction", "", "Packing fraction of the state.",
+                          packing_fraction));
     TRY(results_put_health(results, "structure_residual",
                            "largest residual of the closure, where it is solved numerically", 1e-8,
                            oz_effort(theory->oz).residual));
     if (theory->critical)
-        TRY(put_number(
+        TRY(theory_put_number(
             results, "separation_parameter", "", "sigma = C (phi - phi_c)/phi_c of the state.",
             theory->critical->slope * (packing_fraction / theory->critical->packing_fraction - 1)));
     if (!wants(theory, THEORY_STRUCTURE)) return OK;
@@ -206,15 +207,16 @@ static bool wants_forms(const Theory *theory) {
 
 static Status put_forms(const Theory *theory, Results *results, const Forms *forms) {
     const Structure *s = theory->structure;
-    TRY(put_number(results, "is_glass", "", "1 in a glass, 0 in a fluid.", forms->glass ? 1 : 0));
+    TRY(theory_put_number(results, "is_glass", "", "1 in a glass, 0 in a fluid.",
+                          forms->glass ? 1 : 0));
     if (!forms->glass) return OK;
     TRY(put_pairs(results, theory->plan, "glass_form_factors", s->wave_number, s->count,
                   forms->collective));
     TRY(put_species(results, theory->plan, "self_form_factors", s->wave_number, s->count,
                     forms->self));
-    return put_each(results, theory->plan, "localisation_length", "d",
-                    "r_l of a tagged particle: its displacement ends at 2 dim r_l^2.",
-                    forms->localisation);
+    return theory_put_each(
+        results, theory->plan->species, theory->plan->species_count, "localisation_length", "d",
+        "r_l of a tagged particle: its displacement ends at 2 dim r_l^2.", forms->localisation);
 }
 
 static Status find_forms(Theory *theory, Results *results) {
@@ -379,9 +381,9 @@ static Status put_diffusion(const Theory *theory, Results *results) {
         if (fabs(rise / way * kept->time[last] / end - 1) > NOT_DIFFUSIVE) return OK;
         diffusion[a] = rise / way / (2 * (double)theory->plan->dimension);
     }
-    return put_each(results, theory->plan, "long_time_diffusion", "D0",
-                    "Long-time diffusion coefficient, from the end of the displacement.",
-                    diffusion);
+    return theory_put_each(
+        results, theory->plan->species, theory->plan->species_count, "long_time_diffusion", "D0",
+        "Long-time diffusion coefficient, from the end of the displacement.", diffusion);
 }
 
 static Status solve_correlators(Theory *theory, Results *results) {
