@@ -172,19 +172,20 @@ static Status look_at_ends(Search *search) {
     return look(search, at_high ? wanted->high : -wanted->low, &at_high);
 }
 
+static Status look_at_densest(Search *search) {
+    bool glass;
+    TRY(look(search, search->high, &glass));
+    return glass ? OK
+                 : status_fail(BAD_DATA, "at packing fraction %g there is no glass", search->high);
+}
+
 static Status bisect(Search *search) {
     const CriticalSearch *wanted = search->wanted;
-    const bool packing = is_packing(search);
     bool glass;
-    if (!packing) TRY(look_at_ends(search));
-    if (packing) {
-        TRY(look(search, search->high, &glass));
-        if (!glass)
-            return status_fail(BAD_DATA, "at packing fraction %g there is no glass", search->high);
-    }
+    TRY(is_packing(search) ? look_at_densest(search) : look_at_ends(search));
     for (int step = 0; step < BISECTIONS_MOST && search->s > NEAR; step++)
         TRY(look(search, (search->low + search->high) / 2, &glass));
-    if (!packing || search->low > wanted->low) return OK;
+    if (!is_packing(search) || search->low > wanted->low) return OK;
     TRY(look(search, wanted->low, &glass));
     return glass ? status_fail(BAD_DATA, "at packing fraction %g there is a glass already",
                                wanted->low)

@@ -2,9 +2,12 @@
 // The section `theory` of a run file: its tables, what cannot be, what it costs.
 #include "theory/input.h"
 
+#include "base/nearest.h"
 #include "oz/oz.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 static const char *const parts[] = {"structure_factor", "glass_form_factors", "critical_point",
                                     "exponents",        "correlators",        "beta_scaling",
@@ -75,23 +78,32 @@ static const Option rows[] = {
      .about = "What is calculated.",
      .choices = parts,
      .fallback_text = "[structure_factor, glass_form_factors, critical_point, exponents]"},
+    {.name = "search.key",
+     .type = OPTION_TEXT,
+     .offset = offsetof(TheoryPlan, search_key),
+     .unit = "",
+     .about = "What the glass transition is searched along, as in a sweep: "
+              "theory.packing_fraction, or with packing_fraction held, "
+              "theory.species.NAME.fraction, where the other species share the rest as they do, "
+              "or theory.species.NAME.diameter. Empty: the packing fraction."},
     {.name = "search.low",
      .type = OPTION_REAL,
      .offset = offsetof(TheoryPlan, search_low),
      .fallback = 0,
      .least = 0,
-     .most = 0.95,
+     .most = 100,
      .unit = "",
-     .about = "Packing fraction of a fluid, where the search for the glass transition begins; 0: "
-              "0.6 of discs, 0.45 of spheres."},
+     .about = "Where the search begins: packing fraction of a fluid; 0: 0.6 of discs, 0.45 of "
+              "spheres. Along another key, a fluid or a glass."},
     {.name = "search.high",
      .type = OPTION_REAL,
      .offset = offsetof(TheoryPlan, search_high),
      .fallback = 0,
      .least = 0,
-     .most = 0.95,
+     .most = 100,
      .unit = "",
-     .about = "Packing fraction of a glass, where it ends; 0: 0.74 of discs, 0.57 of spheres."},
+     .about = "Where it ends: packing fraction of a glass; 0: 0.74 of discs, 0.57 of spheres. "
+              "Along another key, the other of the two."},
     {.name = "correlators.wave_numbers",
      .type = OPTION_REALS,
      .offset = offsetof(TheoryPlan, correlator_wave_numbers),
@@ -254,6 +266,95 @@ static Status check_flow_curve(const TheoryPlan *plan) {
     return OK;
 }
 
+enum { SEARCH_KEYS_MOST = 1 + 2 * MIXTURE_SPECIES_MOST };
+typedef struct SearchKeys {
+    size_t count;
+    char text[SEARCH_KEYS_MOST][OPTION_TEXT_SIZE];
+} SearchKeys;
+
+// The packing fraction, then fraction and diameter of each species.
+static void list_search_keys(SearchKeys *keys, const TheoryPlan *plan) {
+    keys->count = 1;
+    snprintf(keys->text[0], OPTION_TEXT_SIZE, "theory.packing_fraction");
+    for (size_t i = 0; i < 2 * plan->species_count; i++)
+        snprintf(keys->text[keys->count++], OPTION_TEXT_SIZE, "theory.species.%s.%s",
+                 plan->species[i / 2].name, i % 2 ? "diameter" : "fraction");
+}
+
+// Which of them it is; `count` if none.
+static size_t search_key(const SearchKeys *keys, const TheoryPlan *plan) {
+    size_t k = 0;
+    if (!plan->search_key[0]) return 0;
+    while (k < keys->count && strcmp(keys->text[k], plan->search_key) != 0) k++;
+    return k;
+}
+
+MixtureAxis theory_search_axis(const TheoryPlan *plan, size_t *species) {
+    SearchKeys keys;
+    list_search_keys(&keys, plan);
+    const size_t k = search_key(&keys, plan);
+    *species = k > 0 ? (k - 1) / 2 : 0;
+    return k == 0 ? MIXTURE_PACKING_FRACTION : k % 2 ? MIXTURE_FRACTION : MIXTURE_DIAMETER;
+}
+
+static Status check_search_key(const TheoryPlan *plan) {
+    SearchKeys keys;
+    const char *words[SEARCH_KEYS_MOST];
+    list_search_keys(&keys, plan);
+    if (search_key(&keys, plan) < keys.count) return OK;
+    for (size_t k = 0; k < keys.count; k++) words[k] = keys.text[k];
+    const size_t near = nearest_word(plan->search_key, words, keys.count);
+    return status_fail(BAD_DATA, "search.key = '%s' is nothing to search along; %s '%s'%s",
+                       plan->search_key,
+                       near < keys.count ? "did you mean" : "expected one such as",
+                       words[near < keys.count ? near : 1], near < keys.count ? "?" : "");
+}
+
+// Along a number of a species.
+static Status check_search_along(const TheoryPlan *plan, MixtureAxis axis) {
+    if (plan->structure == CLOSURE_MEASURED)
+        return status_fail(BAD_DATA,
+                           "search.key = %s: a measured structure is known along the "
+                           "packing fraction alone",
+                           plan->search_key);
+    if (plan->species_count < 2)
+        return status_fail(BAD_DATA, "search.key = %s: of one species nothing changes along it",
+                           plan->search_key);
+    if (plan->packing_fraction == 0)
+        return status_fail(BAD_DATA, "search.key = %s needs the packing_fraction that is held",
+                           plan->search_key);
+    if (wants(plan, THEORY_MASTER))
+        return status_fail(BAD_DATA,
+                           "search.key = %s: alpha_master is of a transition along the packing "
+                           "fraction; search along that for the mixture that freezes",
+                           plan->search_key);
+    if (plan->search_low == 0 || plan->search_high == 0)
+        return status_fail(BAD_DATA, "search.key = %s needs search.low and search.high",
+                           plan->search_key);
+    if (axis == MIXTURE_FRACTION && plan->search_high >= 1)
+        return status_fail(BAD_DATA,
+                           "search.high = %g is no fraction of a mixture; expected less "
+                           "than 1",
+                           plan->search_high);
+    return OK;
+}
+
+static Status check_search(const TheoryPlan *plan) {
+    static const double DENSEST = 0.95;
+    size_t species;
+    TRY(check_search_key(plan));
+    const MixtureAxis axis = theory_search_axis(plan, &species);
+    if (axis != MIXTURE_PACKING_FRACTION) TRY(check_search_along(plan, axis));
+    if (axis == MIXTURE_PACKING_FRACTION && fmax(plan->search_low, plan->search_high) > DENSEST)
+        return status_fail(BAD_DATA, "search.%s = %g is no packing fraction; expected at most %g",
+                           plan->search_low > DENSEST ? "low" : "high",
+                           fmax(plan->search_low, plan->search_high), DENSEST);
+    if (plan->search_low != 0 && plan->search_high != 0 && plan->search_low >= plan->search_high)
+        return status_fail(BAD_DATA, "search.low = %g is not below search.high = %g",
+                           plan->search_low, plan->search_high);
+    return OK;
+}
+
 Status theory_check(const TheoryPlan *plan) {
     TRY(theory_check_species(plan->species, plan->species_count));
     if (plan->structure == CLOSURE_MEASURED && !plan->input.file[0])
@@ -268,9 +369,7 @@ Status theory_check(const TheoryPlan *plan) {
                            "separation = %g stands beside packing_fraction = %g; give "
                            "one of the two",
                            plan->separation, plan->packing_fraction);
-    if (plan->search_low != 0 && plan->search_high != 0 && plan->search_low >= plan->search_high)
-        return status_fail(BAD_DATA, "search: low = %g is not below high = %g", plan->search_low,
-                           plan->search_high);
+    TRY(check_search(plan));
     if (wants(plan, THEORY_CORRELATORS) && plan->first_time >= plan->last_time)
         return status_fail(BAD_DATA, "correlators.times: first = %g is not below last = %g",
                            plan->first_time, plan->last_time);
@@ -327,7 +426,9 @@ double theory_seconds(const TheoryPlan *plan) {
     if (wants(plan, THEORY_FLOW_CURVE))
         evaluations += 150 * (double)plan->block * (double)plan->rates_per_decade *
                        log10(plan->last_rate / plan->first_rate);
-    return 0.3 * species + kernel * evaluations;
+    // Along another number than the packing fraction each mixture is solved anew.
+    const double solving = plan->search_key[0] ? 12 : 1;
+    return 0.3 * species * solving + kernel * evaluations;
 }
 
 const char *theory_structure_name(const TheoryPlan *plan) {

@@ -15,6 +15,7 @@
 #include "theory/series.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double SLICE_STEPS = 32; // times of the correlators between two looks from outside
@@ -23,6 +24,10 @@ static const double MASTER_FIRST = 1e-5, MASTER_LAST = 1e3; // of t in units of 
 
 // Of the slope of ln dr^2 against ln t from 1, where diffusion is not reached.
 static const double NOT_DIFFUSIVE = 0.01;
+
+// Limits of two ways to one curvature. What composition and sizes do to sigma nearly cancels, and
+// errors of the slope are those of the parts.
+static const double MISMATCH = 0.02, MISMATCH_ALONG = 0.05;
 
 // What is known of the transition as numbers.
 enum { NUMBERS = 8 };
@@ -78,7 +83,10 @@ static const struct {
     {"exponent_b", "Von Schweidler exponent b: G -> -B (t/t_sigma)^b.", true},
     {"exponent_gamma", "Exponent gamma = 1/(2 a) + 1/(2 b) of the time of the final decay.", true},
     {"von_schweidler_amplitude", "Amplitude B of G -> -B (t/t_sigma)^b.", true},
-    {"separation_slope", "C in sigma = C (phi - phi_c)/phi_c, the separation parameter.", true},
+    {"separation_slope",
+     "C in sigma = C (phi - phi_c)/phi_c, the separation parameter, or so of what is searched "
+     "along.",
+     true},
     {"shear_coefficient",
      "c of the beta-scaling equation sigma - c (rate t)^2 + lambda G^2 = d/dt int GG; of the "
      "theories, in the isotropically sheared model.",
@@ -116,7 +124,13 @@ static double search_end(const Theory *theory, double given, bool low) {
 static Status search_critical(const Theory *theory, const Measured *measured,
                               CriticalPoint **point) {
     const TheoryPlan *plan = theory->plan;
+    size_t species;
+    const MixtureAxis axis = theory_search_axis(plan, &species);
     const CriticalSearch search = {
+        .axis = axis,
+        .species = species,
+        .packing_fraction = plan->packing_fraction,
+        .name = axis == MIXTURE_PACKING_FRACTION ? NULL : plan->search_key,
         .mixture = theory->mixture,
         .closure = (Closure)plan->structure,
         .measured = measured,
@@ -128,14 +142,42 @@ static Status search_critical(const Theory *theory, const Measured *measured,
     return critical_find(point, &search);
 }
 
+// Of what else than the packing fraction is searched along.
+static Status put_value(const Theory *theory, Results *results) {
+    const TheoryPlan *plan = theory->plan;
+    size_t species;
+    char name[RESULT_NAME];
+    const MixtureAxis axis = theory_search_axis(plan, &species);
+    if (axis == MIXTURE_PACKING_FRACTION) return OK;
+    const bool fraction = axis == MIXTURE_FRACTION;
+    snprintf(name, sizeof name, "critical_%s_%s", fraction ? "fraction" : "diameter",
+             plan->species[species].name);
+    return theory_put_number(results, name, fraction ? "" : "d",
+                             fraction ? "Fraction of the species at the glass transition."
+                                      : "Diameter of the species at the glass transition.",
+                             theory->critical->value);
+}
+
+// Where a state of this packing fraction is on the line that is searched.
+static double value_of(const Theory *theory, double packing_fraction) {
+    size_t species;
+    const MixtureAxis axis = theory_search_axis(theory->plan, &species);
+    return axis == MIXTURE_FRACTION   ? theory->mixture.fraction[species]
+           : axis == MIXTURE_DIAMETER ? theory->mixture.diameter[species]
+                                      : packing_fraction;
+}
+
 static Status find_critical(Theory *theory, Results *results) {
     const TheoryPlan *plan = theory->plan;
     TRY(search_critical(theory, theory->measured, &theory->critical));
     const CriticalPoint *point = theory->critical;
     TRY(numbers_of(point, &theory->whole));
     if (theory->groups < 2) TRY(put_numbers(theory, results, &theory->whole, 0));
+    TRY(put_value(theory, results));
     TRY(results_put_health(results, "transition_mismatch",
-                           "relative difference of two ways to the curvature of phi(1 - E)", 0.02,
+                           "relative difference of two ways to the curvature of what is searched "
+                           "along in 1 - E",
+                           plan->search_key[0] ? MISMATCH_ALONG : MISMATCH,
                            fabs(point->curvature / point->expected_curvature - 1)));
     TRY(put_pairs(results, plan, "critical_form_factors", point->wave_number, point->count,
                   point->form));
@@ -193,8 +235,11 @@ static Status solve_structure(Theory *theory, Results *results) {
                            oz_effort(theory->oz).residual));
     if (theory->critical)
         TRY(theory_put_number(
-            results, "separation_parameter", "", "sigma = C (phi - phi_c)/phi_c of the state.",
-            theory->critical->slope * (packing_fraction / theory->critical->packing_fraction - 1)));
+            results, "separation_parameter", "",
+            "sigma = C (phi - phi_c)/phi_c of the state, or so of what is "
+            "searched along.",
+            theory->critical->slope *
+                (value_of(theory, packing_fraction) / theory->critical->value - 1)));
     if (!wants(theory, THEORY_STRUCTURE)) return OK;
     TRY(put_contacts(results, plan, s));
     TRY(put_pairs(results, plan, "structure_factor", s->wave_number, s->count, s->factor));

@@ -184,6 +184,37 @@ START_TEST(a_glass_has_a_flow_curve_and_a_maximum_before_it) {
 }
 END_TEST
 
+// Of what freezes at this packing fraction, whatever fraction the plan has.
+START_TEST(the_transition_is_searched_along_a_fraction) {
+    TheoryPlan plan = plan_of(1u << THEORY_CRITICAL | 1u << THEORY_EXPONENTS);
+    plan.dimension = 2;
+    plan.species[0] = (TheorySpecies){"small", 1.0 / 3, 0.5, 1};
+    plan.species[1] = (TheorySpecies){"big", 1, 0.5, 1};
+    Results *along_packing = run(&plan);
+    strcpy(plan.search_key, "theory.species.small.fraction");
+    plan.packing_fraction = number(along_packing, "critical_packing_fraction");
+    plan.search_low = 0.2;
+    plan.search_high = 0.7;
+    plan.species[0].fraction = 0.3;
+    plan.species[1].fraction = 0.7;
+    Results *along_fraction = run(&plan);
+    ck_assert_double_eq_tol(number(along_fraction, "critical_fraction_small"), 0.5, 1e-4);
+    ck_assert_double_eq_tol(number(along_fraction, "exponent_parameter"),
+                            number(along_packing, "exponent_parameter"), 5e-4);
+    // sigma = C (x - x_c)/x_c; a smaller fraction of small ones is the glass.
+    ck_assert_double_lt(number(along_fraction, "separation_slope"), 0);
+    ck_assert_double_eq_tol(number(along_fraction, "separation_parameter"),
+                            -0.4 * number(along_fraction, "separation_slope"), 1e-4);
+    const ResultSeries *one = series(along_packing, "critical_form_factors");
+    const ResultSeries *other = series(along_fraction, "critical_form_factors");
+    ck_assert_uint_eq(one->size, other->size);
+    for (size_t i = 0; i < one->size; i++)
+        ck_assert_double_eq_tol(other->values[i], one->values[i], 2e-3);
+    results_free(along_packing);
+    results_free(along_fraction);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("theory");
     TCase *tests = tcase_create("runs");
@@ -192,6 +223,7 @@ int main(void) {
     tcase_add_test(tests, a_glass_has_a_flow_curve_and_a_maximum_before_it);
     tcase_add_test(tests, the_total_is_the_sum_over_ordered_pairs);
     tcase_add_test(tests, contact_values_and_their_pressure);
+    tcase_add_test(tests, the_transition_is_searched_along_a_fraction);
     tcase_add_test(tests, a_fluid_keeps_nothing);
     tcase_add_test(tests, a_fluid_diffuses_in_the_end);
     suite_add_tcase(suite, tests);
