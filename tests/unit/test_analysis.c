@@ -70,19 +70,37 @@ START_TEST(a_dilute_gas_collides_as_kinetic_theory_says) {
 }
 END_TEST
 
+// Mean squared displacements in two dimensions, [species][direction][lag].
+static ResultSeries displacement_shape(const char *stage, const char *const *species, size_t count,
+                                       const double *times, size_t lags, const char *unit) {
+    static const char *const directions[] = {"x", "y", "total"};
+    ResultSeries shape = {
+        .observable = "mean_squared_displacement",
+        .axes = 3,
+        .axis = {{.name = "species", .unit = "", .count = count, .labels = species},
+                 {.name = "direction", .unit = "", .count = 3, .labels = directions},
+                 {.name = "time", .unit = unit, .count = lags, .values = times}}};
+    snprintf(shape.stage, sizeof shape.stage, "%s", stage);
+    return shape;
+}
+
+// Those of one replica.
+static Results *displacements_of(const char *stage, const char *const *species, const double *times,
+                                 size_t lags, const double *values) {
+    const ResultSeries shape = displacement_shape(stage, species, 3, times, lags, "d^2/D0");
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(results_put_series(results, &shape, 0, values), OK);
+    return results;
+}
+
 // <r^2> of the kind of a colloid in a cage: 4 D t + c (1 - exp(-t/cage)), noise per replica.
 static Results *displacements(double diffusion, double cage_size, double cage_time, double noise,
                               const char *unit) {
-    static const char *const species[] = {"disc"}, *const directions[] = {"x", "y", "total"};
+    static const char *const species[] = {"disc"};
     double times[LAGS], values[3 * LAGS];
     for (int k = 0; k < LAGS; k++) times[k] = 1e-3 * pow(10, k / 10.0);
-    const ResultSeries shape = {
-        .stage = "quiescent",
-        .observable = "mean_squared_displacement",
-        .axes = 3,
-        .axis = {{.name = "species", .unit = "", .count = 1, .labels = species},
-                 {.name = "direction", .unit = "", .count = 3, .labels = directions},
-                 {.name = "time", .unit = unit, .count = LAGS, .values = times}}};
+    const ResultSeries shape = displacement_shape("quiescent", species, 1, times, LAGS, unit);
     Results *results = NULL;
     ck_assert_int_eq(results_create(&results, REPLICAS), OK);
     for (size_t r = 0; r < REPLICAS; r++) {
@@ -150,7 +168,6 @@ END_TEST
 START_TEST(short_time_diffusion_is_where_flight_ends) {
     // Flight <r^2> = 4 t^2/h up to h = 0.01, then 4 t: D = 1 at h, less before.
     static const char *const species[] = {"small", "big", "all"};
-    static const char *const directions[] = {"x", "y", "total"};
     double times[LAGS], values[9 * LAGS];
     for (int k = 0; k < LAGS; k++) times[k] = 1e-4 * pow(10, k / 10.0);
     for (int s = 0; s < 9; s++) {
@@ -159,16 +176,7 @@ START_TEST(short_time_diffusion_is_where_flight_ends) {
             values[s * LAGS + k] = (s % 3 < 2 ? 2 : 4) * t * flight / (s / 3 == 1 ? 2 : 1);
         }
     }
-    const ResultSeries shape = {
-        .stage = "quiescent",
-        .observable = "mean_squared_displacement",
-        .axes = 3,
-        .axis = {{.name = "species", .unit = "", .count = 3, .labels = species},
-                 {.name = "direction", .unit = "", .count = 3, .labels = directions},
-                 {.name = "time", .unit = "d^2/D0", .count = LAGS, .values = times}}};
-    Results *results = NULL;
-    ck_assert_int_eq(results_create(&results, 1), OK);
-    ck_assert_int_eq(results_put_series(results, &shape, 0, values), OK);
+    Results *results = displacements_of("quiescent", species, times, LAGS, values);
     const System system = system_of(2, 1000, 0.7, 2);
     ck_assert_int_eq(analysis_derive(results, &system), OK);
     ck_assert_double_eq_tol(scalar_of(results, "quiescent", "short_time_diffusion"), 1, 1e-9);
@@ -189,11 +197,9 @@ START_TEST(newtonian_flight_has_no_brownian_short_time) {
 }
 END_TEST
 
-// g = contact exp(-decay (x - 1)), averaged over bins.
 START_TEST(where_a_force_pulls_diffusion_is_told_across_it) {
     // Diffusion 2 D t along each axis; along x a drift of 3 as well.
     static const char *const species[] = {"bath", "tracer", "all"};
-    static const char *const directions[] = {"x", "y", "total"};
     const double diffusion = 0.8, drift = 3;
     double times[LAGS], values[9 * LAGS];
     for (int k = 0; k < LAGS; k++) times[k] = 1e-2 * pow(10, k / 10.0);
@@ -205,16 +211,7 @@ START_TEST(where_a_force_pulls_diffusion_is_told_across_it) {
             values[(3 * s + 2) * LAGS + k] = 2 * free + way * way;
         }
     }
-    const ResultSeries shape = {
-        .stage = "pulled",
-        .observable = "mean_squared_displacement",
-        .axes = 3,
-        .axis = {{.name = "species", .unit = "", .count = 3, .labels = species},
-                 {.name = "direction", .unit = "", .count = 3, .labels = directions},
-                 {.name = "time", .unit = "d^2/D0", .count = LAGS, .values = times}}};
-    Results *results = NULL;
-    ck_assert_int_eq(results_create(&results, 1), OK);
-    ck_assert_int_eq(results_put_series(results, &shape, 0, values), OK);
+    Results *results = displacements_of("pulled", species, times, LAGS, values);
     ck_assert_int_eq(results_put_scalar(results, "pulled", "force_x", "kT/d", NULL, 0, drift), OK);
     const System system = system_of(2, 1000, 0.7, 2);
     ck_assert_int_eq(analysis_derive(results, &system), OK);
@@ -235,21 +232,11 @@ END_TEST
 
 START_TEST(heavier_species_diffuse_freely_in_proportion_less) {
     static const char *const species[] = {"light", "heavy", "all"};
-    static const char *const directions[] = {"x", "y", "total"};
     System system = system_of(2, 100, 0.1, 2);
     system.species[0] = (Species){.diameter = 1, .mass = 2, .fraction = 0.25};
     system.species[1] = (Species){.diameter = 1, .mass = 8, .fraction = 0.75};
     const double times[] = {0.1, 1, 2}, values[27] = {0};
-    const ResultSeries shape = {
-        .stage = "quiescent",
-        .observable = "mean_squared_displacement",
-        .axes = 3,
-        .axis = {{.name = "species", .unit = "", .count = 3, .labels = species},
-                 {.name = "direction", .unit = "", .count = 3, .labels = directions},
-                 {.name = "time", .unit = "d^2/D0", .count = 3, .values = times}}};
-    Results *results = NULL;
-    ck_assert_int_eq(results_create(&results, 1), OK);
-    ck_assert_int_eq(results_put_series(results, &shape, 0, values), OK);
+    Results *results = displacements_of("quiescent", species, times, 3, values);
     ck_assert_int_eq(analysis_derive(results, &system), OK);
     const double *line = results_find_series(results, "quiescent", "free_displacement")->values;
     ck_assert_double_eq(line[2], 2 * 2);              // light, along x, t = 2
@@ -260,6 +247,7 @@ START_TEST(heavier_species_diffuse_freely_in_proportion_less) {
 }
 END_TEST
 
+// g = contact exp(-decay (x - 1)), averaged over bins.
 static Results *contacts(double contact, double decay) {
     static const char *const pair[] = {"disc-disc"};
     const double width = 0.001, weight = 1.5;
