@@ -45,7 +45,7 @@ typedef struct TheoryPlan {
     int64_t wave_numbers;
     double last_wave_number;
     uint64_t calculate; // bits 1 << TheoryPart
-    char search_key[OPTION_TEXT_SIZE]; // what the transition is searched along; "": packing fraction
+    char search_key[OPTION_TEXT_SIZE]; // of the transition; "": packing fraction
     double search_low, search_high;
     OptionReals correlator_wave_numbers;
     double first_time, last_time;
