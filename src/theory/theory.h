@@ -44,7 +44,7 @@ typedef struct TheoryPlan {
     double packing_fraction, separation; // one of them: separation is phi/phi_c - 1
     int64_t wave_numbers;
     double last_wave_number;
-    uint64_t calculate; // bits 1 << TheoryPart
+    uint64_t calculate;                // bits 1 << TheoryPart
     char search_key[OPTION_TEXT_SIZE]; // of the transition; "": packing fraction
     double search_low, search_high;
     OptionReals correlator_wave_numbers;
