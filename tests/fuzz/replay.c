@@ -15,6 +15,7 @@ static int replay(const char *path) {
     if (!file) return perror(path), 1;
     const size_t size = fread(buffer, 1, sizeof buffer, file);
     fclose(file);
+    if (size == sizeof buffer) return fprintf(stderr, "%s: too long\n", path), 1;
     unsigned char *bytes = malloc(size + 1); // of its own size, so that sanitizers see its end
     if (!bytes) return perror(path), 1;
     for (size_t i = 0; i < size; i++) bytes[i] = buffer[i];

@@ -3,6 +3,7 @@
 // positions against whole numbers, energies of soft spheres against long double, second virial
 // coefficients by integration over the rules. Long mode: PERRIN_SHAPE_PAIRS=1e7 pairs of each.
 #include "dmc/balls.h"
+#include "pairs.h"
 #include "suite.h"
 
 #include "base/constants.h"
@@ -51,20 +52,6 @@ static bool overlap(Pair *pair, Rng *rng, const int32_t steps[3]) {
     uint32_t place[3];
     put(pair, rng, steps, place);
     return balls_overlap(&pair->balls, 0, place, 1);
-}
-
-static int64_t pairs_wanted(void) {
-    const char *wish = getenv("PERRIN_SHAPE_PAIRS");
-    return wish ? (int64_t)atof(wish) : 200000;
-}
-
-static void random_direction(Rng *rng, int dimension, double u[3]) {
-    double square = 0;
-    for (int a = 0; a < 3; a++) {
-        u[a] = a < dimension ? rng_normal(rng) : 0;
-        square += u[a] * u[a];
-    }
-    for (int a = 0; a < 3; a++) u[a] /= sqrt(square);
 }
 
 static void steps_to(const Pair *pair, const double u[3], double distance, int32_t steps[3]) {

@@ -2,6 +2,7 @@
 // Overlaps of bodies: every degenerate case by hand, random and adversarial pairs against slow
 // twins that go another way in long double, second virial coefficients by integration. Long mode:
 // PERRIN_SHAPE_PAIRS=1e7 pairs instead of 2e5.
+#include "pairs.h"
 #include "suite.h"
 
 #include "base/constants.h"
@@ -208,15 +209,6 @@ typedef struct Pair {
     double r[3], u[3], v[3], length_u, length_v;
 } Pair;
 
-static void random_direction(Rng *rng, double u[3]) {
-    double square = 0;
-    for (int a = 0; a < 3; a++) {
-        u[a] = rng_normal(rng);
-        square += u[a] * u[a];
-    }
-    for (int a = 0; a < 3; a++) u[a] /= sqrt(square);
-}
-
 static void normalise(double u[3]) {
     const double length = sqrt(vector_dot(u, u));
     for (int a = 0; a < 3; a++) u[a] /= length;
@@ -232,9 +224,9 @@ static double random_length(Rng *rng) {
 static Pair random_pair(Rng *rng) {
     Pair pair = {.length_u = random_length(rng), .length_v = random_length(rng)};
     double turn[3], aside[3];
-    random_direction(rng, pair.u);
-    random_direction(rng, turn);
-    random_direction(rng, aside);
+    random_direction(rng, 3, pair.u);
+    random_direction(rng, 3, turn);
+    random_direction(rng, 3, aside);
     if (rng_below(rng, 8) == 0) memcpy(pair.u, Z, sizeof Z);
     const double angle = rng_below(rng, 3) == 0 ? pow(10, -17 * rng_uniform(rng)) : 3;
     for (int a = 0; a < 3; a++) pair.v[a] = pair.u[a] + angle * turn[a];
@@ -251,11 +243,6 @@ static Pair random_pair(Rng *rng) {
 
 static void widen(const double from[3], Real to[3]) {
     for (int a = 0; a < 3; a++) to[a] = from[a];
-}
-
-static int64_t pairs_wanted(void) {
-    const char *wish = getenv("PERRIN_SHAPE_PAIRS");
-    return wish ? (int64_t)atof(wish) : 200000;
 }
 
 // A double has 53 bits of the largest length of a pair; this many of them may be lost.
@@ -296,7 +283,7 @@ START_TEST(platelets_overlap_as_those_of_the_twin) {
         if (sine < 1e-10) continue; // where the rounding of the axes themselves decides
         const double radius_u = 0.5, radius_v = rng_below(&rng, 2) ? 0.5 : 0.2;
         double aside[3]; // near enough to meet: within the slab between the planes
-        random_direction(&rng, aside);
+        random_direction(&rng, 3, aside);
         const double height = sine * (2 * rng_uniform(&rng) - 1);
         for (int a = 0; a < 3; a++) {
             pair.r[a] = aside[a] - vector_dot(aside, pair.u) * pair.u[a] + height * pair.u[a] / 2;
@@ -340,9 +327,9 @@ START_TEST(spheres_meet_platelets_as_those_of_the_twin) {
         const Body ball = {.shape = SHAPE_SPHERE, .diameter = rng_below(&rng, 2) ? 1 : 0.1};
         const double reach = ball.diameter / 2;
         double normal[3], aside[3], turn[3], r[3];
-        random_direction(&rng, normal);
+        random_direction(&rng, 3, normal);
         if (rng_below(&rng, 8) == 0) memcpy(normal, Z, sizeof Z);
-        random_direction(&rng, turn);
+        random_direction(&rng, 3, turn);
         vector_cross(normal, turn, aside);
         normalise(aside);
         // Touching the flat side, the rim from aside, from above, or anywhere; then a little off.
@@ -394,9 +381,9 @@ static void check_second_virial(const Body *a, const Body *b) {
     int overlapping = 0;
     for (int i = 0; i < pairs; i++) {
         double u[3], v[3], r[3];
-        random_direction(&rng, u);
-        random_direction(&rng, v);
-        random_direction(&rng, r);
+        random_direction(&rng, 3, u);
+        random_direction(&rng, 3, v);
+        random_direction(&rng, 3, r);
         const double distance = around * cbrt(rng_uniform(&rng));
         for (int c = 0; c < 3; c++) r[c] *= distance;
         overlapping += overlap_of(a, u, b, v, r);
