@@ -324,10 +324,14 @@ int main(void) {
                    &(CriticalSearch){DISCS, CLOSURE_PERCUS_YEVICK, 203, 40, 0.6, 0.74});
     bench_critical("mct transition discs 305 to 59.84",
                    &(CriticalSearch){DISCS, CLOSURE_PERCUS_YEVICK, 305, 59.84, 0.6, 0.74});
+    bench_critical("mct transition discs 407 to 79.85",
+                   &(CriticalSearch){DISCS, CLOSURE_PERCUS_YEVICK, 407, 79.85, 0.6, 0.74});
     bench_critical("mct transition binary discs 203 to 40",
                    &(CriticalSearch){BINARY, CLOSURE_PERCUS_YEVICK, 203, 40, 0.6, 0.74});
     bench_critical("mct transition binary discs 305 to 59.84",
                    &(CriticalSearch){BINARY, CLOSURE_PERCUS_YEVICK, 305, 59.84, 0.6, 0.74});
+    bench_critical("mct transition binary discs 407 to 79.85",
+                   &(CriticalSearch){BINARY, CLOSURE_PERCUS_YEVICK, 407, 79.85, 0.6, 0.74});
     bench_correlators("mct twenty decades spheres 100 to 40", 100, 40);
     bench_correlators("mct twenty decades spheres 300 to 60", 300, 60);
     bench_result("mct kernel and history spheres 100", 1e6 * kernel_seconds(100), "us");
