@@ -49,8 +49,8 @@ static double smooth(const StartUp *mean, size_t window) {
     return sum / number;
 }
 
-// Windows [begin, end) round the highest whose stress is near its, seen from either side; returns
-// the highest.
+// Windows [begin, end) round the highest whose stress is near its, seen from either side, and no
+// fewer than a parabola needs; returns the highest.
 static double near_peak(const StartUp *mean, double sign, size_t *begin, size_t *end) {
     size_t top = 0;
     for (size_t k = 1; k < mean->count; k++) {
@@ -60,6 +60,12 @@ static double near_peak(const StartUp *mean, double sign, size_t *begin, size_t 
     *begin = *end = top;
     while (*begin > 0 && sign * smooth(mean, *begin - 1) > least) --*begin;
     while (*end < mean->count && sign * smooth(mean, *end) > least) ++*end;
+    while (*end - *begin<PEAK_LEAST && * begin> 0 && *end < mean->count) {
+        if (sign * smooth(mean, *begin - 1) > sign * smooth(mean, *end))
+            --*begin;
+        else
+            ++*end;
+    }
     return highest;
 }
 

@@ -165,20 +165,13 @@ static double start_up(double time) {
     return (rise + hump) / RATE;
 }
 
-// Two replicas whose mean has its top in the seventh window, and which lean either way; the stress
-// rises to it from `first`.
-static Results *leaning(double lean, double first) {
-    enum { WINDOWS = 40 };
-    double strain[WINDOWS], stress[2][WINDOWS];
+enum { WINDOWS = 40 };
+
+// What analysis makes of these stresses in windows of a strain `width`.
+static Results *derived(size_t replicas, const double stress[][WINDOWS], double width) {
     static const char *const component[] = {"xy"};
-    for (int k = 0; k < WINDOWS; k++) {
-        const double off = k - 7, top = 1 - 0.007 * off * off;
-        strain[k] = 0.05 * (k + 0.5);
-        for (int r = 0; r < 2; r++) {
-            const double leaned = top + (r == 0 ? lean : -lean) * off;
-            stress[r][k] = k < 4 ? first + (0.8 - first) * k / 4 : k < 11 ? leaned : 0.5;
-        }
-    }
+    double strain[WINDOWS];
+    for (int k = 0; k < WINDOWS; k++) strain[k] = width * (k + 0.5);
     const ResultSeries shape = {
         .stage = "shear",
         .observable = "stress",
@@ -186,11 +179,25 @@ static Results *leaning(double lean, double first) {
         .axis = {{.name = "component", .unit = "", .count = 1, .labels = component},
                  {.name = "strain", .unit = "", .count = WINDOWS, .values = strain}}};
     Results *results = NULL;
-    ck_assert_int_eq(results_create(&results, 2), OK);
-    for (size_t r = 0; r < 2; r++)
+    ck_assert_int_eq(results_create(&results, replicas), OK);
+    for (size_t r = 0; r < replicas; r++)
         ck_assert_int_eq(results_put_series(results, &shape, r, stress[r]), OK);
     ck_assert_int_eq(derive_start_up(results, results_find_series(results, "shear", "stress")), OK);
     return results;
+}
+
+// Two replicas whose mean has its top in the seventh window, and which lean either way; the stress
+// rises to it from `first`.
+static Results *leaning(double lean, double first) {
+    double stress[2][WINDOWS];
+    for (int k = 0; k < WINDOWS; k++) {
+        const double off = k - 7, top = 1 - 0.007 * off * off;
+        for (int r = 0; r < 2; r++) {
+            const double leaned = top + (r == 0 ? lean : -lean) * off;
+            stress[r][k] = k < 4 ? first + (0.8 - first) * k / 4 : k < 11 ? leaned : 0.5;
+        }
+    }
+    return derived(2, stress, 0.05);
 }
 
 // Where the parabola of one replica left out has no top among its windows, nothing is said of it.
@@ -203,6 +210,20 @@ START_TEST(an_overshoot_that_cannot_be_placed_is_not_told) {
     results = leaning(0.08, 0);
     ck_assert_ptr_null(results_find_scalar(results, "shear", "overshoot_strain"));
     ck_assert_ptr_null(results_find_scalar(results, "shear", "overshoot_height"));
+    results_free(results);
+}
+END_TEST
+
+// A top so sharp that few windows are within 7 % of the highest is told from the five round it.
+START_TEST(a_sharp_overshoot_is_told) {
+    double stress[1][WINDOWS];
+    for (int k = 0; k < WINDOWS; k++) {
+        const double off = k - 7.2;
+        stress[0][k] = k < 4 ? 0.1 * k : fmax(0.5, 1 - 0.05 * off * off);
+    }
+    Results *results = derived(1, stress, 0.005);
+    ck_assert_double_eq_tol(scalar_of(results, "shear", "overshoot_strain"), 0.005 * 7.7, 1e-9);
+    ck_assert_double_eq_tol(scalar_of(results, "shear", "overshoot_height"), 1, 1e-9);
     results_free(results);
 }
 END_TEST
@@ -382,6 +403,7 @@ static Suite *suite(void) {
     tcase_add_loop_test(c, pairs_press_along_the_line_between_them, 0, 8);
     tcase_add_test(c, start_up_shows_its_overshoot);
     tcase_add_test(c, an_overshoot_that_cannot_be_placed_is_not_told);
+    tcase_add_test(c, a_sharp_overshoot_is_told);
     tcase_add_test(c, what_flowed_before_has_no_overshoot);
     tcase_add_test(c, a_stress_that_ends_a_stage_is_as_good_as_wished);
     tcase_add_test(c, harmonics_of_an_oscillation_are_found);
