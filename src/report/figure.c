@@ -223,6 +223,29 @@ static void choose_curves(Figure *figure) {
     figure->left_out = all - most;
 }
 
+// Of several pictures one is drawn: that at the last numbers, such as the strongest force of a
+// sweep, of the first labels.
+static bool is_furthest(const Figure *figure, const size_t index[RESULT_AXES]) {
+    for (size_t i = 0; i < figure->series->axes; i++) {
+        const ResultAxis *axis = &figure->series->axis[i];
+        if (axis == figure->x || axis == figure->y || only_label(figure, axis)) continue;
+        if (index[i] != (axis->values ? axis->count - 1 : 0)) return false;
+    }
+    return true;
+}
+
+static void choose_picture(Figure *figure) {
+    size_t index[RESULT_AXES];
+    const size_t all = count_curves(figure);
+    for (size_t element = 0; element < figure->series->size; element++) {
+        if (!curve_at(figure, element, index) || !is_furthest(figure, index)) continue;
+        figure->curve[0].first = element;
+        title_curve(&figure->curve[0], figure, index);
+    }
+    figure->curve_count = all > 0;
+    figure->left_out = all - figure->curve_count;
+}
+
 static size_t stride_of(const ResultSeries *series, size_t axis) {
     size_t stride = 1;
     for (size_t i = axis + 1; i < series->axes; i++) stride *= series->axis[i].count;
@@ -263,6 +286,7 @@ Figure figure_of(const Results *results, const ResultSeries *series) {
     }
     name_files(figure.name, series);
     choose_curves(&figure);
+    if (figure.y) choose_picture(&figure);
     return figure;
 }
 
@@ -305,6 +329,10 @@ bool figure_is_theory(const Figure *figure) { // stages of theories bear their s
     return strcmp(stage, "theory") == 0 || strcmp(stage, "schematic") == 0;
 }
 
+bool figure_rests(const Figure *figure) {
+    return figure->kind && figure->kind->rest && figure->kind->log_x && figure->x->values[0] == 0;
+}
+
 bool figure_is_dense(const Figure *figure) {
     enum { MARKS_MOST = 60 };
     return figure->x->count > MARKS_MOST;
@@ -338,6 +366,9 @@ void figure_caption(Text *text, const Figure *figure) {
         text_put(text, " One replica, hence no errors.");
     }
     if (figure->sums_alone && !figure->y) text_put(text, " Of all species together.");
+    if (figure->left_out > 0 && figure->y)
+        text_add(text, " This is that of %s; the others are in results.h5.",
+                 figure->curve[0].title);
     if (figure->left_out > 0 && !figure->y) {
         text_add(text, " %zu further curve%s in the numbers.", figure->left_out,
                  figure->left_out == 1 ? " is" : "s are");

@@ -40,6 +40,7 @@ typedef struct FigureKind {
     const char *level;  // a scalar of the stage, drawn as a horizontal line
     const char *level_title;
     FigureLimit limit[FIGURE_LIMITS];
+    const char *rest;       // title of the levels of values at x = 0, where x is logarithmic
     double coarse;          // points with a larger error are not drawn; 0: all are
     const char *about;      // what is to be seen, a sentence for the caption
     const char *about_line; // and about the line, where there is one
@@ -72,13 +73,14 @@ typedef struct Figure {
     size_t y_stride;
     bool sums_alone;    // curves of single species are left out: there would be too many
     size_t curve_count; // drawn
-    size_t left_out;    // further curves, not drawn
+    size_t left_out;    // further curves, or pictures, not drawn
     Curve curve[FIGURE_CURVES];
 } Figure;
 
 size_t figure_columns(const Figure *figure); // of the numbers of a curve
 bool figure_is_theory(const Figure *figure); // not of a simulation: has neither replicas nor errors
 bool figure_has_errors(const Figure *figure);
+bool figure_rests(const Figure *figure);    // has values at x = 0 beside a logarithmic axis
 bool figure_is_dense(const Figure *figure); // too many points for a mark on each
 
 Figure figure_of(const Results *results, const ResultSeries *series);

@@ -56,11 +56,27 @@ static void put_label(Text *script, const char *axis, const char *symbol, const 
     text_free(&label);
 }
 
+static bool has_one_scale(const Figure *figure) {
+    return strcmp(figure->x->unit, figure->y->unit) == 0;
+}
+
+// From the first to the last value.
+static double length_of(const ResultAxis *axis) {
+    return axis->values[axis->count - 1] - axis->values[0];
+}
+
+// Of one scale it is as high as its shape asks, and leaves no blank above and below.
+static int height_of(const Figure *figure) {
+    enum { FRAME = 100, HIGH = 420 };
+    if (!has_one_scale(figure)) return FRAME + HIGH;
+    return FRAME + (int)(HIGH * fmin(1, length_of(figure->y) / length_of(figure->x)));
+}
+
 void figure_map_script(Text *script, const Figure *figure) {
     text_add(script,
              "# Draws %s.svg from %s.csv: gnuplot %s.gp\n"
              "set encoding utf8\n"
-             "set terminal svg size 640,520 enhanced font 'Helvetica,Arial,sans-serif,18' name "
+             "set terminal svg size 640,%d enhanced font 'Helvetica,Arial,sans-serif,18' name "
              "'%s'\n"
              "set output '%s.svg'\n"
              "set datafile separator ','\n"
@@ -68,9 +84,9 @@ void figure_map_script(Text *script, const Figure *figure) {
              "set border linewidth 1.2\n"
              "set tics out scale 0.8\n"
              "unset key\n",
-             figure->name, figure->name, figure->name, figure->name, figure->name, figure->name);
-    const bool same_scale = strcmp(figure->x->unit, figure->y->unit) == 0;
-    if (same_scale) text_put(script, "set size ratio -1\n");
+             figure->name, figure->name, figure->name, height_of(figure), figure->name,
+             figure->name, figure->name);
+    if (has_one_scale(figure)) text_put(script, "set size ratio -1\n");
     text_put(script, figure->kind->signed_colour ? SIGNED : EVEN);
     put_label(script, "x", figure->kind->x, figure->x->unit);
     put_label(script, "y", figure->kind->y, figure->y->unit);

@@ -263,28 +263,70 @@ static void put_reference_title(Text *script, const char *title, bool first) {
     if (first) gnuplot_quoted(script, title);
 }
 
-// Each over its half of the x axis, in the colour of its curve; what they are is said in grey.
+// The ends of the x axis as it is drawn, and its middle: a logarithmic one has no place for 0.
+typedef struct Span {
+    size_t first; // point
+    double begin, middle, end;
+} Span;
+
+static Span span_of(const Figure *figure) {
+    const double *x = figure->x->values;
+    const bool is_log = is_log_x(figure);
+    Span span = {.end = x[figure->x->count - 1]};
+    while (is_log && span.first + 1 < figure->x->count && x[span.first] <= 0) span.first++;
+    span.begin = x[span.first];
+    span.middle = is_log ? sqrt(span.begin * span.end) : (span.begin + span.end) / 2;
+    return span;
+}
+
+static double value_at(const Figure *figure, const ResultSeries *series, size_t curve,
+                       size_t point) {
+    const size_t element = figure->curve[curve].first + point * figure->stride;
+    return results_series_estimate(figure->results, series, element).value;
+}
+
+// A level over half of the x axis, in the colour of its curve.
+static void put_half(Text *script, const Figure *figure, size_t curve, double value, bool right,
+                     const char *dash) {
+    const Span span = span_of(figure);
+    if (!isfinite(value)) return;
+    text_add(script,
+             ", \\\n  [%.10g:%.10g] '+' using 1:(%.10g) with lines linetype %zu dashtype %s "
+             "notitle",
+             right ? span.middle : span.begin, right ? span.end : span.middle, value,
+             look_of(figure, curve), dash);
+}
+
+// What levels of this dash are, in grey.
+static void put_dash_title(Text *script, const char *dash, const char *title) {
+    text_add(script, ", \\\n  keyentry with lines linecolor rgb '#333333' dashtype %s title ",
+             dash);
+    gnuplot_quoted(script, title);
+}
+
 static void put_limits(Text *script, const Figure *figure) {
-    const double *x = figure->x->values, last = x[figure->x->count - 1];
-    const double middle = is_log_x(figure) ? sqrt(x[0] * last) : (x[0] + last) / 2;
-    size_t column = figure->line ? 3 : 2;
+    const size_t last = figure->x->count - 1;
     for (size_t k = 0; k < FIGURE_LIMITS; k++) {
         if (!figure->limit[k]) continue;
         const FigureLimit *limit = &figure->kind->limit[k];
         const char *dash = limit->dotted ? "(2,4)" : "(9,5)";
+        const size_t point = limit->right ? last : span_of(figure).first;
         for (size_t c = 0; c < figure->curve_count; c++) {
-            text_add(script,
-                     ", \\\n  data using ($1 %s %.10g ? $1 : NaN):%zu with lines "
-                     "linetype %zu dashtype %s notitle",
-                     limit->right ? ">=" : "<=", middle, value_column(figure, c) + column,
-                     look_of(figure, c), dash);
+            put_half(script, figure, c, value_at(figure, figure->limit[k], c, point), limit->right,
+                     dash);
         }
-        column++;
-        if (!limit->title) continue;
-        text_add(script, ", \\\n  keyentry with lines linecolor rgb '#333333' dashtype %s title ",
-                 dash);
-        gnuplot_quoted(script, limit->title);
+        if (limit->title) put_dash_title(script, dash, limit->title);
     }
+}
+
+// What stands at x = 0 is where the curves begin, and not on a logarithmic axis.
+static void put_rest(Text *script, const Figure *figure) {
+    static const char DASH[] = "(14,4,2,4)";
+    if (!figure_rests(figure)) return;
+    for (size_t c = 0; c < figure->curve_count; c++) {
+        put_half(script, figure, c, value_at(figure, figure->series, c, 0), false, DASH);
+    }
+    put_dash_title(script, DASH, figure->kind->rest);
 }
 
 // What the curves are compared with: other numbers, a function, or a level.
@@ -305,6 +347,7 @@ static void put_references(Text *script, const Figure *figure) {
         put_reference_title(script, kind->level_title, true);
     }
     put_limits(script, figure);
+    put_rest(script, figure);
     text_put(script, "\n");
 }
 

@@ -489,9 +489,83 @@ START_TEST(a_limit_is_drawn_over_its_half_of_the_axis) {
     ck_assert_str_eq(text_words(&csv), "peclet,\"value\",\"value error\",\"value friction_weak\"\n"
                                        "1,2,,1.4\n10,1.5,,1.4\n100,1.2,,1.4\n");
     figure_script(&script, &figure);
-    ck_assert_ptr_nonnull(strstr(text_words(&script), "data using ($1 <= 10 ? $1 : NaN):4 with"));
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "[1:10] '+' using 1:(1.4) with lines"));
+    ck_assert_ptr_null(strstr(text_words(&script), "at rest"));
     text_free(&script);
     text_free(&csv);
+    results_free(results);
+}
+END_TEST
+
+// A logarithmic axis has no place for 0: the value there is a level over the left half, which
+// begins at the first force, as limits do.
+START_TEST(friction_at_rest_is_a_level_where_forces_are_weak) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    const double peclet[] = {0, 1, 100}, friction[] = {2.5, 2, 1.2}, weak[] = {1.4, 1.4, 1.4};
+    ResultSeries shape = {.stage = "pulled",
+                          .observable = "effective_friction",
+                          .axes = 1,
+                          .axis = {{.name = "peclet", .unit = "", .count = 3, .values = peclet}}};
+    results_put_series(results, &shape, 0, friction);
+    snprintf(shape.observable, sizeof shape.observable, "friction_weak");
+    results_put_series(results, &shape, 0, weak);
+    const Figure figure = figure_of(results, &results->series[0]);
+    Text script = {0};
+    figure_script(&script, &figure);
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "[1:10] '+' using 1:(2.5) with lines"));
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "[1:10] '+' using 1:(1.4) with lines"));
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "title 'at rest'"));
+    text_free(&script);
+    results_free(results);
+}
+END_TEST
+
+// Three rounds at four forces: against cycles, although there are more forces.
+START_TEST(the_tracers_step_is_drawn_against_cycles) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    const double peclet[] = {0, 1, 10, 100}, cycles[] = {500, 1000, 1500};
+    const ResultSeries shape = {
+        .stage = "pulled",
+        .observable = "tracer_step",
+        .unit = "d",
+        .axes = 2,
+        .axis = {{.name = "peclet", .unit = "", .count = 4, .values = peclet},
+                 {.name = "cycles", .unit = "", .count = 3, .values = cycles}}};
+    double values[12];
+    for (int i = 0; i < 12; i++) values[i] = 0.03;
+    results_put_series(results, &shape, 0, values);
+    const Figure figure = figure_of(results, &results->series[0]);
+    ck_assert_str_eq(figure.x->name, "cycles");
+    ck_assert_str_eq(figure.curve[3].title, "peclet = 100");
+    results_free(results);
+}
+END_TEST
+
+// Of a sweep over forces one map is drawn, that of the strongest, and the caption says so.
+START_TEST(of_several_pictures_the_furthest_is_drawn_and_told) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    const double peclet[] = {0, 10}, r[] = {-0.5, 0.5}, across[] = {0.5, 1.5};
+    const ResultSeries shape = {
+        .stage = "pulled",
+        .observable = "tracer_surroundings",
+        .axes = 3,
+        .axis = {{.name = "peclet", .unit = "", .count = 2, .values = peclet},
+                 {.name = "along", .unit = "d", .count = 2, .values = r},
+                 {.name = "across", .unit = "d", .count = 2, .values = across}}};
+    double values[] = {0, 1, 2, 3, 4, 5, 6, 7};
+    results_put_series(results, &shape, 0, values);
+    const Figure figure = figure_of(results, &results->series[0]);
+    Text caption = {0}, csv = {0};
+    figure_caption(&caption, &figure);
+    figure_map_numbers(&csv, &figure);
+    ck_assert_uint_eq(figure.curve[0].first, 4);
+    ck_assert_ptr_nonnull(strstr(text_words(&caption), " This is that of peclet = 10; the others"));
+    ck_assert_ptr_nonnull(strstr(text_words(&csv), "-0.5,0.5,4,NaN\n"));
+    text_free(&csv);
+    text_free(&caption);
     results_free(results);
 }
 END_TEST
@@ -663,6 +737,9 @@ int main(void) {
     tcase_add_test(tests, an_observable_without_a_row_is_drawn_by_the_plain_rule);
     tcase_add_test(tests, a_figure_of_a_sweep_says_which_points_it_lacks);
     tcase_add_test(tests, a_limit_is_drawn_over_its_half_of_the_axis);
+    tcase_add_test(tests, friction_at_rest_is_a_level_where_forces_are_weak);
+    tcase_add_test(tests, the_tracers_step_is_drawn_against_cycles);
+    tcase_add_test(tests, of_several_pictures_the_furthest_is_drawn_and_told);
     tcase_add_test(tests, of_too_many_curves_those_of_all_species_from_first_to_last_are_drawn);
     tcase_add_test(tests, many_names_stand_below_two_panels_and_not_on_them);
     tcase_add_test(tests, a_series_over_a_plane_is_drawn_as_a_picture);
