@@ -2,6 +2,8 @@
 // What the build system says about the build.
 #include "base/version.h"
 
+#include "base/commit.h" // written by tools/commit.cmake
+
 const char *version_number(void) {
     return PERRIN_VERSION;
 }
