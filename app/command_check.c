@@ -96,6 +96,18 @@ static void print_next_place(const System *system, const Pull *pull) {
            "", TRACER_ATTEMPTS, "");
 }
 
+// A trajectory ends where it has gone 3/4 of the edge; the force stays on until its time is over.
+static void print_end(const System *system, const Pull *pull, double velocity, double time) {
+    static const double SHARE = 0.75;
+    const Box box = system_box(system);
+    const double end = SHARE * box.edge[pull->axis] / velocity;
+    if (end < time)
+        printf(
+            "          %-16s with a friction below %.2g a trajectory ends before its time, at 3/4\n"
+            "          %-16s of the edge; alone after %.2g\n",
+            "", time / end, "", end);
+}
+
 static void print_pull(const System *system, const Pull *pull, const Clock *clock) {
     const Species *tracer = &system->species[tracer_species(pull, system)];
     const double force = drive_pull_force(pull, tracer->diameter);
@@ -104,14 +116,16 @@ static void print_pull(const System *system, const Pull *pull, const Clock *cloc
     printf("          %-16s F = %.6g kT/d on %s along %s: Pe = F a/kT = %.6g", "  driven by", force,
            pull->species, drive_pull_axes[pull->axis], pull->peclet);
     if (!clock->flies) printf(", clock %s", drive_pull_clocks[pull->clock]);
-    printf("\n          %-16s alone it drifts at %.4g D0/d; ", "",
-           force * tracer_free_diffusion(pull, system, clock->thermostatted));
+    const double velocity = force * tracer_free_diffusion(pull, system, clock->thermostatted);
+    printf("\n          %-16s alone it drifts at %.4g D0/d; ", "", velocity);
     if (period > clock->ticks)
         printf("one trajectory in each replica\n");
     else
         printf("%lld trajectories of %.4g %s in each replica, with rests of %.4g\n",
                (long long)(clock->ticks / period), (double)on * clock->tick, clock->unit,
                (double)(period - on) * clock->tick);
+    print_end(system, pull, velocity,
+              (double)(on < clock->ticks ? on : clock->ticks) * clock->tick);
     if (period <= clock->ticks) print_next_place(system, pull);
 }
 

@@ -2,7 +2,8 @@
 // The bath round a pulled tracer (Garcia Daza, Puertas, Cuetos and Patti: [GD], their figures of
 // density and orientation): density over its mean and E2 = <(3 (u.F)^2 - 1)/2> of body axes against
 // the force, in rings about its axis; the density in touch with the tracer in front and behind; the
-// length of the wake. Only while the force is on, and after the tracer has become steady.
+// length of the wake. Only while the force is on, after the tracer has become steady, and before it
+// comes into what it has swept itself.
 #include "base/constants.h"
 #include "base/memory.h"
 #include "numerics/vector.h"
@@ -16,7 +17,7 @@
 
 typedef struct RingSettings {
     int64_t looks;
-    double reach, spacing, begin;
+    double reach, spacing, begin, distance;
 } RingSettings;
 
 static const Option rows[] = {
@@ -45,6 +46,14 @@ static const Option rows[] = {
      .most = 1e9,
      .unit = "d^2/D0",
      .about = "Time after the force has come on from which the tracer is looked at."},
+    {.name = "distance",
+     .type = OPTION_REAL,
+     .offset = offsetof(RingSettings, distance),
+     .fallback = 0.75,
+     .least = 0.05,
+     .most = 100,
+     .unit = "",
+     .about = "It is looked at until it has gone this share of the edge along the force."},
 };
 
 enum { ENDS = 2 };                     // in front, behind
@@ -57,6 +66,8 @@ typedef struct Rings {
     size_t particle, along, across; // numbers of rings
     int axis;
     int64_t period, on, begin; // ticks
+    double origin, furthest;   // along the force, unfolded: of this trajectory; where it ends, in d
+    uint64_t running;          // 0 or 1
     uint64_t looks;
     double touching[ENDS]; // particles in the shells, over all looks
     double *count;         // [along][across] particles seen
@@ -122,9 +133,19 @@ static Status create(Observer **out, const Settings *settings, const State *stat
     rings->observer.period = looks_period(clock, rings->settings.looks);
     drive_pull_ticks(pull, clock->tick, clock->ticks_per_step, &rings->period, &rings->on);
     rings->begin = (int64_t)ceil(rings->settings.begin / clock->tick);
+    rings->furthest = rings->settings.distance * state->box.edge[pull->axis];
     Status status = NEW_ARRAY(rings->count, rings->along * rings->across);
     if (status == OK) status = NEW_ARRAY(rings->order, rings->along * rings->across);
     return observer_begin(out, &rings->observer, status);
+}
+
+// Looks, and beginnings of trajectories.
+static int64_t next(const Observer *observer, int64_t after) {
+    const Rings *rings = (const Rings *)observer;
+    const int64_t look = looks_next(observer, after), ticks = observer->clock.ticks;
+    if (after < 0) return 0;
+    const int64_t left = rings->period - after % rings->period;
+    return left <= ticks - after && after + left < look ? after + left : look;
 }
 
 static void add(Rings *rings, double x, double rho, double order) {
@@ -172,6 +193,10 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
     (void)tally;
     Rings *rings = (Rings *)observer;
     const int64_t phase = tick % rings->period;
+    const double place = state_unfolded(state, rings->axis, rings->particle);
+    if (phase == 0) rings->origin = place, rings->running = 1;
+    if (place - rings->origin >= rings->furthest) rings->running = 0;
+    if (tick == 0 || tick % rings->observer.period != 0 || !rings->running) return OK;
     if (phase < rings->begin || phase > rings->on) return OK;
     rings->looks++;
     for (size_t i = 0; i < state->count; i++) {
@@ -180,12 +205,14 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
     return OK;
 }
 
-static const uint64_t RINGS_TAG = 0x52494e4753303031; // "RINGS001"
+static const uint64_t RINGS_TAG = 0x52494e4753303032; // "RINGS002"
 
 static void archive(Observer *observer, Archive *archive) {
     Rings *rings = (Rings *)observer;
     archive_tag(archive, RINGS_TAG);
     archive_u64(archive, &rings->looks, 1);
+    archive_u64(archive, &rings->running, 1);
+    archive_f64(archive, &rings->origin, 1);
     archive_f64(archive, rings->touching, ENDS);
     archive_f64(archive, rings->count, rings->along * rings->across);
     archive_f64(archive, rings->order, rings->along * rings->across);
@@ -312,7 +339,7 @@ const ObservableKind observable_tracer_surroundings = {
     .options = {rows, sizeof rows / sizeof *rows, sizeof(RingSettings)},
     .check = check,
     .create = create,
-    .next = looks_next,
+    .next = next,
     .see = see,
     .archive = archive,
     .write = write,

@@ -135,6 +135,10 @@ expect "nor of a weak force" not_of_step '% too' --set dynamics.step=0.04 --set 
     --set protocol.pulled.pull.peclet=15
 expect "a longer drifted one runs away" of_step "keep the bath's pace" --set dynamics.step=0.04
 expect "of which it is not said how far it is off" not_of_step '% too' --set dynamics.step=0.04
+expect "check says below which friction a trajectory ends before its time" \
+    of_step "a friction below [1-9].* ends before its time" --set dynamics.step=0.003
+expect "of one that cannot go so far it does not" \
+    not_of_step "before its time" --set protocol.pulled.pull.peclet=1
 expect "check says which calibration leads it into its own wake" \
     of_step "own wake.*calibration = [1-9].*would not" --set dynamics.step=0.01 --set dynamics.calibration=20000
 expect "of a short one it does not" \

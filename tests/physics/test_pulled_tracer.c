@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A tracer pulled through hard spheres, by Monte Carlo and by event-driven dynamics, against
 // velocities found by an independent event-driven program and against each other. Fixed seeds.
+#include "base/constants.h"
 #include "shapes/overlap.h"
 #include "simulate.h"
 
@@ -209,6 +210,7 @@ START_TEST(scattered_rods_touch_as_often_as_evenly_spread_ones) {
     const ObservableKind *kind = &observable_tracer_surroundings;
     Settings settings = settings_of(&kind->options);
     set_number(&settings, &kind->options, "begin", 0);
+    set_number(&settings, &kind->options, "looks", LOOKS);
     Observer *observer = NULL;
     ck_assert_int_eq(kind->create(&observer, &settings, state, &clock), OK);
     for (int64_t look = 0; look < LOOKS; look++) {
@@ -228,6 +230,64 @@ START_TEST(scattered_rods_touch_as_often_as_evenly_spread_ones) {
 }
 END_TEST
 
+// A tracer that goes half a diameter in each tick, once round the box in each of two trajectories,
+// and one neighbour: in the first in touch in front of it, up to 3/4 of the edge, and from there on
+// in touch behind.
+static void place_pair(State *state, int64_t tick) {
+    const double edge = state->box.edge[0], gone = 0.5 * (double)(tick % 40);
+    const double place = 1 + gone, near = tick < 40 ? 1.02 : 5;
+    const double side = gone < 0.75 * edge ? near : -1.02;
+    state->image[0][1] = (int32_t)floor(place / edge);
+    state->position[0][1] = place - edge * state->image[0][1];
+    state->position[0][0] = fmod(place + side + edge, edge);
+}
+
+// What a tracer meets after 3/4 of the edge it may have pushed there itself. Looks are every three
+// ticks, and the second trajectory does not begin with one.
+START_TEST(a_tracer_is_not_looked_at_in_its_own_wake) {
+    System system = {
+        .dimension = 3, .particles = 2, .number_density = 2 / 8000.0, .species_count = 2};
+    for (size_t s = 0; s < 2; s++) {
+        system.species[s] = (Species){.shape = SHAPE_SPHERE, .diameter = 1, .fraction = 0.5};
+    }
+    strcpy(system.species[1].name, "tracer");
+    State *state = NULL;
+    ck_assert_int_eq(state_create(&state, &system), OK);
+    for (size_t i = 0; i < 2; i++) {
+        state->diameter[i] = 1;
+        for (int a = 0; a < 3; a++) state->position[a][i] = 10;
+    }
+    const Drive drive = {.pull = {.species = "tracer", .peclet = 1, .period = 40}};
+    const Clock clock = {.tick = 1,
+                         .ticks = 80,
+                         .ticks_per_step = 1,
+                         .unit = "d^2/D0",
+                         .stage = "measured",
+                         .drive = &drive};
+    const ObservableKind *kind = &observable_tracer_surroundings;
+    Settings settings = settings_of(&kind->options);
+    set_number(&settings, &kind->options, "begin", 0);
+    set_number(&settings, &kind->options, "looks", 27);
+    Observer *observer = NULL;
+    ck_assert_int_eq(kind->create(&observer, &settings, state, &clock), OK);
+    for (int64_t tick = kind->next(observer, -1); tick <= clock.ticks;
+         tick = kind->next(observer, tick)) {
+        place_pair(state, tick);
+        ck_assert_int_eq(kind->see(observer, tick, state, &(Tally){0}), OK);
+    }
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(kind->write(observer, state, results, 0), OK);
+    const double shell = 4 * PI / 3 * (pow(1.05, 3) - 1) * (1 - sqrt(0.75)) / 2;
+    ck_assert_double_eq(measured(results, "contact_density_behind").value, 0);
+    ck_assert_double_eq_tol(measured(results, "contact_density_front").value,
+                            9.0 / 19 * 8000 / shell, 0.01); // looks of the first, of both
+    kind->free(observer);
+    results_free(results);
+    state_free(state);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("a pulled tracer");
     ADD_CASE(suite, friction_is_that_of_event_driven_dynamics, 2);
@@ -236,5 +296,6 @@ int main(void) {
     ADD_CASE(suite, nothing_is_in_front_without_a_force, 1);
     ADD_CASE(suite, a_strong_force_leaves_a_wake, 1);
     ADD_CASE(suite, scattered_rods_touch_as_often_as_evenly_spread_ones, 1);
+    ADD_CASE(suite, a_tracer_is_not_looked_at_in_its_own_wake, 1);
     return run_suite(suite) ? EXIT_FAILURE : EXIT_SUCCESS;
 }
