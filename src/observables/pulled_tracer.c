@@ -5,7 +5,8 @@
 // tracer has gone 3/4 of the edge of the box, before it comes into its own wake.
 //
 // Trajectories that end by distance are short where the tracer was fast: a mean over velocities
-// would be too large. Distance over time, each summed over all trajectories, is not.
+// would be too large. Distance over time, each summed over all trajectories, is not. Squares and
+// products of the two tell the error over trajectories that follow each other in one bath.
 #include "base/memory.h"
 #include "observables/begin.h"
 #include "observables/put.h"
@@ -13,6 +14,7 @@
 #include "propagator/tracer.h"
 
 #include <math.h>
+#include <string.h>
 
 typedef struct TracerSettings {
     int64_t looks;
@@ -40,6 +42,8 @@ static const Option rows[] = {
 };
 
 enum { BEGINS = 5, SQUARES = 2 };
+// Sums over trajectories: distance, time, their squares and product, and how many there are.
+typedef enum Sum { DISTANCE, TIME, DISTANCE_2, PRODUCT, TIME_2, TRAJECTORIES, SUMS } Sum;
 // From when on the tracer is taken to be steady, in parts of the time that it needs at least: all
 // are given, to see from where the velocity does not change.
 static const double BEGIN[BEGINS] = {0, 0.05, 0.1, 0.2, 0.4};
@@ -55,14 +59,16 @@ typedef struct Tracer {
     size_t particle;
     int axis, dimension;
     Looking looking;
-    double furthest;           // where it ends, in d
-    uint64_t running;          // 0 or 1
-    double origin[3], last;    // unfolded; displacement along at the last look
-    double *count;             // [looks] trajectories seen so far
-    double *along;             // [looks] sum of displacements
-    double *squares;           // [looks][SQUARES] sums of squares along, and across per direction
-    double passage[2][BEGINS]; // distance and time of the steady parts
-    TracerSettling settling;   // of its Monte Carlo step, before the stage
+    double furthest;         // where it ends, in d
+    uint64_t running;        // 0 or 1
+    double origin[3], last;  // unfolded; displacement along at the last look
+    double *count;           // [looks] trajectories seen so far
+    double *along;           // [looks] sum of displacements
+    double *squares;         // [looks][SQUARES] sums of squares along, and across per direction
+    double *quartics;        // [looks][SQUARES] sums of the squares of these
+    double going[2][BEGINS]; // distance and time of the steady parts of the trajectory
+    double passage[SUMS][BEGINS]; // sums over those that have ended
+    TracerSettling settling;      // of its Monte Carlo step, before the stage
 } Tracer;
 
 static const TracerSettings *settings_of(const Settings *settings) {
@@ -119,13 +125,15 @@ static void discard(Observer *observer) {
     memory_free(tracer->count);
     memory_free(tracer->along);
     memory_free(tracer->squares);
+    memory_free(tracer->quartics);
     memory_free(tracer);
 }
 
 static Status allocate(Tracer *tracer) {
     TRY(NEW_ARRAY(tracer->count, tracer->looking.looks));
     TRY(NEW_ARRAY(tracer->along, tracer->looking.looks));
-    return NEW_ARRAY(tracer->squares, tracer->looking.looks * SQUARES);
+    TRY(NEW_ARRAY(tracer->squares, tracer->looking.looks * SQUARES));
+    return NEW_ARRAY(tracer->quartics, tracer->looking.looks * SQUARES);
 }
 
 static Status create(Observer **out, const Settings *settings, const State *state,
@@ -153,7 +161,22 @@ static int64_t next(const Observer *observer, int64_t after) {
     return tick <= observer->clock.ticks ? tick : INT64_MAX;
 }
 
+// Adds the trajectory that goes on to these sums.
+static void add_passage(const Tracer *tracer, double passage[SUMS][BEGINS]) {
+    for (size_t b = 0; b < BEGINS; b++) {
+        const double distance = tracer->going[DISTANCE][b], time = tracer->going[TIME][b];
+        passage[DISTANCE][b] += distance;
+        passage[TIME][b] += time;
+        passage[DISTANCE_2][b] += distance * distance;
+        passage[PRODUCT][b] += distance * time;
+        passage[TIME_2][b] += time * time;
+        passage[TRAJECTORIES][b] += time > 0;
+    }
+}
+
 static void begin(Tracer *tracer, const State *state) {
+    add_passage(tracer, tracer->passage);
+    memset(tracer->going, 0, sizeof tracer->going);
     for (int a = 0; a < tracer->dimension; a++) {
         tracer->origin[a] = state_unfolded(state, a, tracer->particle);
     }
@@ -164,12 +187,15 @@ static void begin(Tracer *tracer, const State *state) {
 static void add(Tracer *tracer, size_t look, double along, double across2) {
     tracer->count[look]++;
     tracer->along[look] += along;
-    tracer->squares[look * SQUARES] += along * along;
-    tracer->squares[look * SQUARES + 1] += across2 / (tracer->dimension - 1);
+    const double squares[SQUARES] = {along * along, across2 / (tracer->dimension - 1)};
+    for (size_t d = 0; d < SQUARES; d++) {
+        tracer->squares[look * SQUARES + d] += squares[d];
+        tracer->quartics[look * SQUARES + d] += squares[d] * squares[d];
+    }
     for (size_t b = 0; b < BEGINS; b++) {
         if ((double)look < BEGIN[b] * tracer->looking.whole) continue;
-        tracer->passage[0][b] += along - tracer->last;
-        tracer->passage[1][b] += (double)tracer->looking.spacing * tracer->observer.clock.tick;
+        tracer->going[DISTANCE][b] += along - tracer->last;
+        tracer->going[TIME][b] += (double)tracer->looking.spacing * tracer->observer.clock.tick;
     }
     tracer->last = along;
 }
@@ -193,7 +219,7 @@ static Status see(Observer *observer, int64_t tick, const State *state, const Ta
     return OK;
 }
 
-static const uint64_t TRACER_TAG = 0x5452414345523032; // "TRACER02"
+static const uint64_t TRACER_TAG = 0x5452414345523033; // "TRACER03"
 
 static void archive(Observer *observer, Archive *archive) {
     Tracer *tracer = (Tracer *)observer;
@@ -204,52 +230,98 @@ static void archive(Observer *observer, Archive *archive) {
     archive_f64(archive, tracer->count, tracer->looking.looks);
     archive_f64(archive, tracer->along, tracer->looking.looks);
     archive_f64(archive, tracer->squares, tracer->looking.looks * SQUARES);
-    archive_f64(archive, tracer->passage[0], (size_t)2 * BEGINS);
+    archive_f64(archive, tracer->quartics, tracer->looking.looks * SQUARES);
+    archive_f64(archive, tracer->going[0], (size_t)2 * BEGINS);
+    archive_f64(archive, tracer->passage[0], (size_t)SUMS * BEGINS);
     tally_archive_settling(&tracer->settling, archive);
 }
 
-static Status put_curves(const Tracer *tracer, double *values, Results *results, size_t replica) {
-    static const char *const directions[SQUARES] = {"along", "across"};
+// Mean of `count` numbers, or its standard error, from their sum and that of their squares; NaN
+// where there are too few.
+static double mean(double sum, double count) {
+    return sum / count;
+}
+
+static double standard_error(double sum, double squares, double count) {
+    const double variance = squares / count - sum * sum / (count * count);
+    return count > 1 ? sqrt(fmax(variance, 0) / (count - 1)) : NAN;
+}
+
+static ResultAxis time_axis(const Tracer *tracer, double *times) {
+    const Clock *clock = &tracer->observer.clock;
+    for (size_t k = 0; k < tracer->looking.looks; k++)
+        times[k] = (double)(k + 1) * (double)tracer->looking.spacing * clock->tick;
+    return (ResultAxis){
+        .name = "time", .unit = clock->unit, .count = tracer->looking.looks, .values = times};
+}
+
+// Trajectories in one bath: what a single replica tells of its errors is over these.
+static bool has_own_errors(const Tracer *tracer, const Results *results) {
+    return results->replicas == 1 && tracer->looking.period <= tracer->observer.clock.ticks;
+}
+
+static Status put_displacement(const Tracer *tracer, double *values, Results *results,
+                               size_t replica) {
     const size_t looks = tracer->looking.looks;
-    double *times = values + SQUARES * looks;
-    for (size_t k = 0; k < looks; k++) {
-        times[k] = (double)(k + 1) * (double)tracer->looking.spacing * tracer->observer.clock.tick;
-        values[k] = tracer->along[k] / tracer->count[k]; // NaN where none came so far
-    }
-    const ResultAxis time = {
-        .name = "time", .unit = tracer->observer.clock.unit, .count = looks, .values = times};
-    ResultSeries shape = {.unit = "d", .axes = 1, .axis = {time}};
+    const ResultSeries shape = {
+        .unit = "d", .axes = 1, .axis = {time_axis(tracer, values + SQUARES * looks)}};
+    for (size_t k = 0; k < looks; k++) values[k] = mean(tracer->along[k], tracer->count[k]);
     TRY(observer_put_series(&tracer->observer, "tracer_displacement", &shape, results, replica,
                             values));
+    if (!has_own_errors(tracer, results)) return OK;
     for (size_t k = 0; k < looks; k++) {
-        for (size_t d = 0; d < SQUARES; d++) {
-            values[d * looks + k] = tracer->squares[k * SQUARES + d] / tracer->count[k];
-        }
+        values[k] =
+            standard_error(tracer->along[k], tracer->squares[k * SQUARES], tracer->count[k]);
     }
-    shape = (ResultSeries){
+    return observer_put_series(&tracer->observer, "tracer_displacement_error", &shape, results,
+                               replica, values);
+}
+
+static Status put_squares(const Tracer *tracer, double *values, Results *results, size_t replica) {
+    static const char *const directions[SQUARES] = {"along", "across"};
+    const size_t looks = tracer->looking.looks;
+    const ResultSeries shape = {
         .unit = "d^2",
         .axes = 2,
-        .axis = {{.name = "direction", .unit = "", .count = SQUARES, .labels = directions}, time}};
-    return observer_put_series(&tracer->observer, "tracer_square_displacement", &shape, results,
-                               replica, values);
+        .axis = {{.name = "direction", .unit = "", .count = SQUARES, .labels = directions},
+                 time_axis(tracer, values + SQUARES * looks)}};
+    for (size_t i = 0; i < SQUARES * looks; i++) {
+        const size_t k = i % looks, sum = k * SQUARES + i / looks;
+        values[i] = mean(tracer->squares[sum], tracer->count[k]);
+    }
+    TRY(observer_put_series(&tracer->observer, "tracer_square_displacement", &shape, results,
+                            replica, values));
+    if (!has_own_errors(tracer, results)) return OK;
+    for (size_t i = 0; i < SQUARES * looks; i++) {
+        const size_t k = i % looks, sum = k * SQUARES + i / looks;
+        values[i] = standard_error(tracer->squares[sum], tracer->quartics[sum], tracer->count[k]);
+    }
+    return observer_put_series(&tracer->observer, "tracer_square_displacement_error", &shape,
+                               results, replica, values);
 }
 
 static Status put_passage(const Tracer *tracer, const System *system, Results *results,
                           size_t replica) {
-    static const char *const quantities[2] = {"distance", "time"};
+    static const char *const quantities[SUMS] = {"distance", "time",        "distance_square",
+                                                 "product",  "time_square", "trajectories"};
     const Clock *clock = &tracer->observer.clock;
     const Pull *pull = &clock->drive->pull;
     const ResultSeries shape = {
         .unit = "d; d^2/D0",
         .axes = 2,
-        .axis = {{.name = "quantity", .unit = "", .count = 2, .labels = quantities},
+        .axis = {{.name = "quantity", .unit = "", .count = SUMS, .labels = quantities},
                  {.name = "begin", .unit = "", .count = BEGINS, .values = BEGIN}}};
+    double passage[SUMS][BEGINS]; // that which goes on is one, too
+    memcpy(passage, tracer->passage, sizeof passage);
+    add_passage(tracer, passage);
+    TRY(observer_put_scalar(&tracer->observer, "tracer_trajectories", "", NULL, results, replica,
+                            tracer->count[0]));
     TRY(observer_put_scalar(&tracer->observer, "tracer_free_diffusion", "D0", NULL, results,
                             replica, tracer_free_diffusion(pull, system, clock->thermostatted)));
     TRY(observer_put_scalar(&tracer->observer, "tracer_free_velocity", "D0/d", NULL, results,
                             replica, free_velocity(clock, system)));
     return observer_put_series(&tracer->observer, "tracer_passage", &shape, results, replica,
-                               tracer->passage[0]);
+                               passage[0]);
 }
 
 // How its step came to be that whose time is the bath's ([GD], their Fig. 2).
@@ -274,7 +346,8 @@ static Status write(const Observer *observer, const State *state, Results *resul
     const Tracer *tracer = (const Tracer *)observer;
     double *values = NULL;
     TRY(NEW_ARRAY(values, (SQUARES + 1) * tracer->looking.looks));
-    Status status = put_curves(tracer, values, results, replica);
+    Status status = put_displacement(tracer, values, results, replica);
+    if (status == OK) status = put_squares(tracer, values, results, replica);
     if (status == OK) status = put_passage(tracer, &state->system, results, replica);
     if (status == OK) status = put_settling(tracer, results, replica);
     memory_free(values);
@@ -283,7 +356,7 @@ static Status write(const Observer *observer, const State *state, Results *resul
 
 static size_t memory(const Settings *settings, const System *system, const Clock *clock) {
     return sizeof(Tracer) +
-           (2 + SQUARES) * sizeof(double) * looking_for(settings, system, clock).looks;
+           (2 + 2 * SQUARES) * sizeof(double) * looking_for(settings, system, clock).looks;
 }
 
 const ObservableKind observable_pulled_tracer = {

@@ -321,7 +321,8 @@ size_t figure_columns(const Figure *figure) {
 }
 
 bool figure_has_errors(const Figure *figure) {
-    return figure->results->replicas > 1 && !figure_is_theory(figure);
+    if (figure_is_theory(figure)) return false;
+    return figure->results->replicas > 1 || results_own_errors(figure->results, figure->series);
 }
 
 bool figure_is_theory(const Figure *figure) { // stages of theories bear their section's name
@@ -360,8 +361,12 @@ void figure_caption(Text *text, const Figure *figure) {
     if (figure_has_errors(figure) && figure->y) {
         text_add(text, " Mean over %zu replicas.", results->replicas);
     } else if (figure_has_errors(figure)) {
-        text_add(text, " Mean over %zu replicas; %s: standard error of the mean.",
-                 results->replicas, figure_is_dense(figure) ? "bands" : "bars");
+        const char *shown = figure_is_dense(figure) ? "bands" : "bars";
+        if (results->replicas > 1)
+            text_add(text, " Mean over %zu replicas; %s: standard error of the mean.",
+                     results->replicas, shown);
+        else
+            text_add(text, " One replica; %s: standard error over its trajectories.", shown);
     } else if (!figure_is_theory(figure)) {
         text_put(text, " One replica, hence no errors.");
     }

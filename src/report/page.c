@@ -224,8 +224,9 @@ static void put_conventions(Text *page, const Results *results) {
     const bool simulated = results_find_fact(results, "seed") != NULL;
     text_put(page, "</table>\n<p class=\"under\">");
     if (simulated)
-        text_put(page, "In brackets the standard error over the n replicas, in units of the last "
-                       "digits; σ is that error alone, and references have errors of their own and "
+        text_put(page, "In brackets the standard error over the n replicas (of one: over the "
+                       "trajectories in it), in units of the last digits; σ is that error alone, "
+                       "and references have errors of their own and "
                        "are of equilibrium. ");
     else if (results->replicas > 1)
         text_put(page, "In brackets the standard error, in units of the last digits, from n groups "

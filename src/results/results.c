@@ -330,12 +330,33 @@ static Estimate estimate(const double *values, size_t count, size_t stride) {
     return result;
 }
 
+static void name_of_error(char name[RESULT_NAME + 8], const char *of) {
+    snprintf(name, RESULT_NAME + 8, "%s_error", of);
+}
+
+const ResultSeries *results_own_errors(const Results *results, const ResultSeries *series) {
+    char name[RESULT_NAME + 8];
+    if (results->replicas != 1) return NULL;
+    name_of_error(name, series->observable);
+    const ResultSeries *errors = results_find_series(results, series->stage, name);
+    return errors && errors->size == series->size ? errors : NULL;
+}
+
 Estimate results_series_estimate(const Results *results, const ResultSeries *series,
                                  size_t element) {
     ASSERT(element < series->size);
-    return estimate(series->values + element, results->replicas, series->size);
+    Estimate result = estimate(series->values + element, results->replicas, series->size);
+    const ResultSeries *errors = results_own_errors(results, series);
+    if (errors) result.error = errors->values[element];
+    return result;
 }
 
 Estimate results_scalar_estimate(const Results *results, const ResultScalar *scalar) {
-    return estimate(scalar->values, results->replicas, 1);
+    char name[RESULT_NAME + 8];
+    Estimate result = estimate(scalar->values, results->replicas, 1);
+    if (results->replicas != 1) return result;
+    name_of_error(name, scalar->quantity);
+    const ResultScalar *error = results_find_scalar(results, scalar->stage, name);
+    if (error) result.error = error->values[0];
+    return result;
 }

@@ -112,9 +112,13 @@ const ResultCounter *results_broken_limit(const Results *results); // the first;
 
 typedef struct Estimate {
     double value; // mean over the replicas that have a value
-    double error; // its standard error; NaN with fewer than two
+    double error; // its standard error; of a single replica that which it tells itself, else NaN
     size_t n;     // how many
 } Estimate;
+
+// Of a single replica, the series of the standard errors of this one, which stands beside it under
+// its name and "_error"; NULL if it tells none.
+const ResultSeries *results_own_errors(const Results *results, const ResultSeries *series);
 
 Estimate results_series_estimate(const Results *results, const ResultSeries *series,
                                  size_t element);

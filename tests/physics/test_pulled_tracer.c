@@ -230,6 +230,23 @@ START_TEST(scattered_rods_touch_as_often_as_evenly_spread_ones) {
 }
 END_TEST
 
+// Two spheres in a box of 20 d, the second one the tracer.
+static State *pair_in_a_box(void) {
+    System system = {
+        .dimension = 3, .particles = 2, .number_density = 2 / 8000.0, .species_count = 2};
+    for (size_t s = 0; s < 2; s++) {
+        system.species[s] = (Species){.shape = SHAPE_SPHERE, .diameter = 1, .fraction = 0.5};
+    }
+    strcpy(system.species[1].name, "tracer");
+    State *state = NULL;
+    ck_assert_int_eq(state_create(&state, &system), OK);
+    for (size_t i = 0; i < 2; i++) {
+        state->diameter[i] = 1;
+        for (int a = 0; a < 3; a++) state->position[a][i] = 10;
+    }
+    return state;
+}
+
 // A tracer that goes half a diameter in each tick, once round the box in each of two trajectories,
 // and one neighbour: in the first in touch in front of it, up to 3/4 of the edge, and from there on
 // in touch behind.
@@ -245,18 +262,7 @@ static void place_pair(State *state, int64_t tick) {
 // What a tracer meets after 3/4 of the edge it may have pushed there itself. Looks are every three
 // ticks, and the second trajectory does not begin with one.
 START_TEST(a_tracer_is_not_looked_at_in_its_own_wake) {
-    System system = {
-        .dimension = 3, .particles = 2, .number_density = 2 / 8000.0, .species_count = 2};
-    for (size_t s = 0; s < 2; s++) {
-        system.species[s] = (Species){.shape = SHAPE_SPHERE, .diameter = 1, .fraction = 0.5};
-    }
-    strcpy(system.species[1].name, "tracer");
-    State *state = NULL;
-    ck_assert_int_eq(state_create(&state, &system), OK);
-    for (size_t i = 0; i < 2; i++) {
-        state->diameter[i] = 1;
-        for (int a = 0; a < 3; a++) state->position[a][i] = 10;
-    }
+    State *state = pair_in_a_box();
     const Drive drive = {.pull = {.species = "tracer", .peclet = 1, .period = 40}};
     const Clock clock = {.tick = 1,
                          .ticks = 80,
@@ -288,6 +294,72 @@ START_TEST(a_tracer_is_not_looked_at_in_its_own_wake) {
 }
 END_TEST
 
+// Two trajectories of 40 ticks, in which a tracer goes 0.1 and 0.3 d in each: a single replica
+// tells the error of their mean.
+START_TEST(a_single_replica_has_errors_over_its_trajectories) {
+    State *state = pair_in_a_box();
+    const Drive drive = {.pull = {.species = "tracer", .peclet = 1, .period = 40}};
+    const Clock clock = {.tick = 1,
+                         .ticks = 80,
+                         .ticks_per_step = 1,
+                         .unit = "d^2/D0",
+                         .stage = "measured",
+                         .drive = &drive};
+    const ObservableKind *kind = &observable_pulled_tracer;
+    const Settings settings = settings_of(&kind->options);
+    Observer *observer = NULL;
+    ck_assert_int_eq(kind->create(&observer, &settings, state, &clock), OK);
+    for (int64_t tick = kind->next(observer, -1); tick <= clock.ticks;
+         tick = kind->next(observer, tick)) {
+        state->position[0][1] = (tick < 40 ? 0.1 : 0.3) * (double)(tick % 40);
+        ck_assert_int_eq(kind->see(observer, tick, state, &(Tally){0}), OK);
+    }
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(kind->write(observer, state, results, 0), OK);
+    ck_assert_int_eq(analysis_derive(results, &state->system), OK);
+    ck_assert_double_eq(measured(results, "tracer_trajectories").value, 2);
+    const Estimate velocity = measured(results, "tracer_velocity"),
+                   friction = measured(results, "effective_friction"),
+                   drift = measured(results, "tracer_velocity_drift"),
+                   way = measured_at(results, "tracer_displacement", 19), // after 20 ticks
+        square = measured_at(results, "tracer_square_displacement", 19);
+    ck_assert_double_eq_tol(velocity.value, 0.2, 1e-12);
+    ck_assert_double_eq_tol(velocity.error, 0.1, 1e-12);
+    ck_assert_double_eq_tol(friction.value, 10, 1e-9); // D F = 2
+    ck_assert_double_eq_tol(friction.error, 5, 1e-9);
+    ck_assert_double_eq_tol(drift.value, 0, 1e-12);
+    ck_assert_double_gt(drift.error, 0);
+    ck_assert_double_eq_tol(way.value, 4, 1e-12);
+    ck_assert_double_eq_tol(way.error, 2, 1e-12);
+    ck_assert_double_eq_tol(square.value, 20, 1e-12); // of 4 and 36
+    ck_assert_double_eq_tol(square.error, 16, 1e-12);
+    kind->free(observer);
+    results_free(results);
+    state_free(state);
+}
+END_TEST
+
+// Twelve replicas of twelve trajectories each: errors over them are, within the noise of either,
+// those that single replicas would tell: their ratio is known to a quarter.
+START_TEST(errors_over_trajectories_are_those_over_replicas) {
+    Plan *plan = pulled_plan(0.2, 20, 0.05, 0.4, 12);
+    plan->ensemble.replicas = 12;
+    const Estimate over_replicas = friction_of(plan);
+    double square = 0;
+    enum { SINGLE = 4 };
+    for (uint64_t seed = 1; seed <= SINGLE; seed++) {
+        plan = pulled_plan(0.2, 20, 0.05, 0.4, 12);
+        plan->ensemble = (EnsemblePlan){.replicas = 1, .seed = 100 + seed};
+        const Estimate single = friction_of(plan);
+        square += single.error * single.error / SINGLE;
+    }
+    const double expected = sqrt(square / 12);
+    printf("error over replicas %.4f, over trajectories %.4f\n", over_replicas.error, expected);
+    ck_assert_double_eq_tol(over_replicas.error / expected, 1, 0.6);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("a pulled tracer");
     ADD_CASE(suite, friction_is_that_of_event_driven_dynamics, 2);
@@ -297,5 +369,7 @@ int main(void) {
     ADD_CASE(suite, a_strong_force_leaves_a_wake, 1);
     ADD_CASE(suite, scattered_rods_touch_as_often_as_evenly_spread_ones, 1);
     ADD_CASE(suite, a_tracer_is_not_looked_at_in_its_own_wake, 1);
+    ADD_CASE(suite, a_single_replica_has_errors_over_its_trajectories, 1);
+    ADD_CASE(suite, errors_over_trajectories_are_those_over_replicas, 1);
     return run_suite(suite) ? EXIT_FAILURE : EXIT_SUCCESS;
 }
