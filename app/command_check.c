@@ -326,8 +326,9 @@ static Status print_plan(const Plan *plan) {
         return OK;
     }
     if (plan_is_theory(plan)) {
+        uint32_t checksum;
         print_theory(&plan->theory);
-        return plan_check_input(plan);
+        return plan_check_input(plan, &checksum);
     }
     print_system(&plan->system);
     print_species(&plan->system);

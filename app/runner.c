@@ -89,6 +89,15 @@ static void print_end(const Results *results, const char *directory) {
     fprintf(stderr, "numbers: perrin show %s\nreport:  %s/report.html\n", directory, directory);
 }
 
+// Quiet is not silent.
+static void print_anew(size_t runs) {
+    if (runs == 0) return;
+    fprintf(stderr,
+            "the structure that is read has changed: %zu run%s calculated anew; earlier results "
+            "are kept as results-of-*.h5\n",
+            runs, runs == 1 ? " is" : "s are");
+}
+
 static Status watch_and_finish(Campaign *campaign, const SessionWishes *wishes, bool quiet) {
     if (campaign_resumes(campaign) && !quiet) {
         fprintf(stderr, "resuming in %s\n", wishes->directory);
@@ -96,6 +105,7 @@ static Status watch_and_finish(Campaign *campaign, const SessionWishes *wishes, 
     watch(campaign, quiet);
     Results *results = NULL;
     const char *note = NULL;
+    print_anew(campaign_anew(campaign));
     const Status status = campaign_finish(campaign, &results, &note);
     if (status == INTERRUPTED) {
         char what[STATUS_SENTENCE_SIZE];

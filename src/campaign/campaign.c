@@ -35,6 +35,7 @@ struct Campaign {
     Store *store; // NULL: there is no sweep
     char *plan_text;
     size_t count, first_waiting, running;
+    size_t anew; // points whose earlier results were of another structure
     Point *point;
     double start, work;
     bool stopping, resumes;
@@ -102,17 +103,20 @@ static Status read_finished(Results **out, const char *folder) {
     return status;
 }
 
-// The same plan has been run to its end there.
+// The same plan has been run to its end there, with what the files that it reads hold now.
 static bool is_finished(const Plan *plan, const char *folder) {
     Results *results = NULL;
     char *text = NULL;
+    uint32_t checksum;
     if (read_finished(&results, folder) != OK) return false;
     const char *plan_there = results_find_fact(results, "plan");
     const bool same = plan_there && config_write(plan, &text) == OK && !strcmp(text, plan_there);
     const bool healthy = !results_broken_limit(results);
+    const bool fits =
+        plan_check_input(plan, &checksum) == OK && plan_has_checksum(results, checksum);
     memory_free(text);
     results_free(results);
-    return same && healthy;
+    return same && healthy && fits;
 }
 
 static Status open_session(Campaign *campaign, Point *point, const char *folder) {
@@ -160,6 +164,7 @@ static void begin_point(Campaign *campaign) {
     if (status == OK) status = open_session(campaign, point, text_words(&folder));
     text_free(&folder);
     if (point->session) {
+        campaign->anew += session_begins_anew(point->session);
         point->turn = RUNNING;
         campaign->running++;
         return;
@@ -218,6 +223,10 @@ void campaign_close(Campaign *campaign) {
 
 bool campaign_resumes(const Campaign *campaign) {
     return campaign->resumes;
+}
+
+size_t campaign_anew(const Campaign *campaign) {
+    return campaign->anew;
 }
 
 bool campaign_tend(Campaign *campaign) {

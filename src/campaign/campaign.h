@@ -12,6 +12,8 @@ typedef struct Campaign Campaign;
 // Locks the directory and refuses one that holds another run file. The points are borrowed.
 Status campaign_open(Campaign **out, const ConfigPoints *points, const SessionWishes *wishes);
 bool campaign_resumes(const Campaign *campaign);
+// How many runs so far began anew, for what they read has changed since they had results.
+size_t campaign_anew(const Campaign *campaign);
 
 // Starts the runs of further points and ends those that are done; false when none is left. To be
 // asked several times a second.

@@ -195,8 +195,10 @@ static void tell_calculation(const Theorist *theorist, bool running) {
 static Status save_calculation(Theorist *theorist) {
     EnsembleShared *shared = theorist->shared;
     double seconds = theorist->seconds_before + thread_seconds();
+    uint64_t checksum = calculation_checksum(theorist->calculation);
     Archive archive = archive_writer();
     archive_f64(&archive, &seconds, 1);
+    archive_u64(&archive, &checksum, 1);
     calculation_save(theorist->calculation, &archive);
     Status status = archive_status(&archive, true);
     if (status == OK) status = checkpoint_write(shared->store, 0, archive.bytes, archive.size);
@@ -215,18 +217,34 @@ static Status tell_where(const Theorist *theorist) {
                      calculation_time(theorist->calculation));
 }
 
+// `fits`: of the same numbers as were read now.
+static Status load_archive(Theorist *theorist, Archive *archive, bool *fits) {
+    uint64_t checksum;
+    double seconds;
+    archive_f64(archive, &seconds, 1);
+    archive_u64(archive, &checksum, 1);
+    TRY(archive_status(archive, false));
+    *fits = checksum == calculation_checksum(theorist->calculation);
+    if (!*fits) return OK;
+    theorist->seconds_before = seconds;
+    TRY(calculation_load(theorist->calculation, theorist->shared->results, archive));
+    return archive_status(archive, true);
+}
+
 static Status load_calculation(Theorist *theorist) {
     EnsembleShared *shared = theorist->shared;
     void *bytes = NULL;
     size_t size = 0;
+    bool fits = true;
     TRY(checkpoint_read(shared->store, 0, &bytes, &size));
     if (!bytes) return OK;
     Archive archive = archive_reader(bytes, size);
-    archive_f64(&archive, &theorist->seconds_before, 1);
-    Status status = calculation_load(theorist->calculation, shared->results, &archive);
-    if (status == OK) status = archive_status(&archive, true);
+    const Status status = load_archive(theorist, &archive, &fits);
     free(bytes);
-    if (status == OK) return tell_where(theorist);
+    if (status == OK && fits) return tell_where(theorist);
+    if (status == OK)
+        return store_log(shared->store, "the checkpoint is of another structure than is read now: "
+                                        "the theory begins anew");
     return status_fail(status, "checkpoint of the theory in %s: %s", store_directory(shared->store),
                        status_sentence());
 }
@@ -266,7 +284,8 @@ static Status unit_calculation(EnsembleShared *shared) {
                          .last_checkpoint = seconds_now(),
                          .requests_seen = atomic_load(&shared->checkpoint_requests)};
     TRY(calculation_create(&theorist.calculation, shared->plan));
-    const Status status = run_calculation(&theorist);
+    Status status = plan_put_checksum(shared->results, calculation_checksum(theorist.calculation));
+    if (status == OK) status = run_calculation(&theorist);
     tell_calculation(&theorist, false);
     calculation_free(theorist.calculation);
     return status;

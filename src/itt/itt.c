@@ -33,6 +33,7 @@ struct Itt {
     Step step;
     double packing_fraction;
     Measured *measured; // structure in place of the closure's; NULL: none
+    uint32_t checksum;  // of its numbers
     Plane *plane;
     Direct *direct;
     Transient *transient;
@@ -326,6 +327,7 @@ static Status read_structure(Itt *itt) {
     const MeasurementsInput input = itt_input(itt->plan);
     if (itt->plan->structure != CLOSURE_MEASURED) return OK;
     TRY(measurements_read(&measurements, &input));
+    itt->checksum = measurements_checksum(measurements);
     const Status status = measurements_fit(&itt->measured, measurements, 0, 0);
     measurements_free(measurements);
     return status;
@@ -355,6 +357,10 @@ void itt_free(Itt *itt) {
     direct_free(itt->direct);
     measured_free(itt->measured);
     memory_free(itt);
+}
+
+uint32_t itt_checksum(const Itt *itt) {
+    return itt->checksum;
 }
 
 Status itt_advance(Itt *itt, Results *results) {

@@ -32,8 +32,8 @@ extern const OptionTable itt_options;
 
 void itt_complete(IttPlan *plan);      // what follows from other keys: a file is a structure
 Status itt_check(const IttPlan *plan); // BAD_DATA with a sentence
-// Likewise, whether files that are read are there and fit.
-Status itt_check_input(const IttPlan *plan);
+// Likewise, whether files that are read are there and fit, with their checksum, 0 of a closure.
+Status itt_check_input(const IttPlan *plan, uint32_t *checksum);
 size_t itt_memory(const IttPlan *plan);
 double itt_seconds(const IttPlan *plan); // rough
 const char *itt_structure_name(const IttPlan *plan);
@@ -41,6 +41,7 @@ const char *itt_structure_name(const IttPlan *plan);
 typedef struct Itt Itt;
 Status itt_create(Itt **out, const IttPlan *plan);
 void itt_free(Itt *itt);
+uint32_t itt_checksum(const Itt *itt); // of the structure that was read; 0: none
 
 // A slice of the work: mostly below a second. Results are put in as they come.
 Status itt_advance(Itt *itt, Results *results);

@@ -175,9 +175,10 @@ MeasurementsInput itt_input(const IttPlan *plan) {
     return (MeasurementsInput){plan->file, plan->stage, itt_mixture(plan), plan->separation != 0};
 }
 
-Status itt_check_input(const IttPlan *plan) {
+Status itt_check_input(const IttPlan *plan, uint32_t *checksum) {
     const MeasurementsInput input = itt_input(plan);
-    return plan->structure == CLOSURE_MEASURED ? measurements_check(&input) : OK;
+    *checksum = 0;
+    return plan->structure == CLOSURE_MEASURED ? measurements_check(&input, checksum) : OK;
 }
 
 size_t itt_memory(const IttPlan *plan) {

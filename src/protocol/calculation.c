@@ -36,6 +36,11 @@ void calculation_free(Calculation *c) {
     memory_free(c);
 }
 
+uint32_t calculation_checksum(const Calculation *c) {
+    if (c->itt) return itt_checksum(c->itt);
+    return c->theory ? theory_checksum(c->theory) : 0;
+}
+
 Status calculation_advance(Calculation *c, Results *results) {
     if (c->itt) return itt_advance(c->itt, results);
     if (c->schematic) return schematic_advance(c->schematic, results);

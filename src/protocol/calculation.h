@@ -9,6 +9,7 @@ typedef struct Calculation Calculation;
 
 Status calculation_create(Calculation **out, const Plan *plan);
 void calculation_free(Calculation *calculation);
+uint32_t calculation_checksum(const Calculation *calculation); // of what it has read; 0: nothing
 
 // A slice of the work: mostly below a second. Results are put in as they come.
 Status calculation_advance(Calculation *calculation, Results *results);

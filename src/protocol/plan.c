@@ -5,6 +5,7 @@
 #include "packing/packing.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const Option stage_rows[] = {
@@ -223,9 +224,27 @@ Status plan_check(const Plan *plan) {
     return OK;
 }
 
-Status plan_check_input(const Plan *plan) {
-    if (plan->itt.given) return itt_check_input(&plan->itt);
-    return plan->theory.species_count > 0 ? theory_check_input(&plan->theory) : OK;
+Status plan_check_input(const Plan *plan, uint32_t *checksum) {
+    *checksum = 0;
+    if (plan->itt.given) return itt_check_input(&plan->itt, checksum);
+    return plan->theory.species_count > 0 ? theory_check_input(&plan->theory, checksum) : OK;
+}
+
+static const char *checksum_words(char words[16], uint32_t checksum) {
+    snprintf(words, 16, "%08x", (unsigned)checksum);
+    return words;
+}
+
+Status plan_put_checksum(Results *results, uint32_t checksum) {
+    if (checksum == 0) return OK;
+    return results_put_fact(results, PLAN_CHECKSUM_FACT, checksum_words((char[16]){0}, checksum));
+}
+
+// Without one they are of nothing that was read, or of an earlier version: then nobody knows.
+bool plan_has_checksum(const Results *results, uint32_t checksum) {
+    const char *there = results_find_fact(results, PLAN_CHECKSUM_FACT);
+    if (!there) return checksum == 0;
+    return strcmp(there, checksum_words((char[16]){0}, checksum)) == 0;
 }
 
 size_t plan_slots(const Plan *plan) {

@@ -71,8 +71,13 @@ Clock plan_clock(const Plan *plan, size_t stage);
 
 // BAD_DATA with a sentence if something cannot be: method against shape, density, observations.
 Status plan_check(const Plan *plan);
-// Likewise, if a file that is read is not there or does not fit.
-Status plan_check_input(const Plan *plan);
+// Likewise, if a file that is read is not there or does not fit. `checksum` tells its numbers apart
+// from others; 0: nothing is read.
+Status plan_check_input(const Plan *plan, uint32_t *checksum);
+// Results carry that of the numbers that they come from as a fact, in eight hexadecimal digits.
+Status plan_put_checksum(Results *results, uint32_t checksum);
+bool plan_has_checksum(const Results *results, uint32_t checksum);
+#define PLAN_CHECKSUM_FACT "structure_checksum"
 size_t plan_slots(const Plan *plan); // of its Results: replicas, or groups of those that it reads
 
 size_t plan_memory(const Plan *plan);                      // bytes of one replica

@@ -21,7 +21,7 @@ struct Session {
     Store *store;
     EnsembleSlots *own_slots; // NULL: they are shared
     Ensemble *ensemble;
-    bool resumes;
+    bool resumes, anew;
     char report_note[1024];
 };
 
@@ -90,9 +90,37 @@ bool session_has_plan(const char *directory) {
     return length > 0 && (size_t)length < sizeof path && access(path, F_OK) == 0;
 }
 
+// Results of numbers that are not those of now: they cannot be had again once the file that they
+// were read from is another.
+static Status keep_earlier(Session *session, const Results *earlier) {
+    const char *checksum = results_find_fact(earlier, PLAN_CHECKSUM_FACT);
+    char name[64];
+    snprintf(name, sizeof name, "results-of-%.8s.h5", checksum ? checksum : "unknown");
+    session->anew = true;
+    TRY(store_rename(session->store, "results.h5", name));
+    return store_log(session->store,
+                     "the structure that is read is not that of results.h5, which is kept as %s",
+                     name);
+}
+
+static Status judge_earlier(Session *session, uint32_t checksum) {
+    Results *earlier = NULL;
+    Text path = {0};
+    text_add(&path, "%s/results.h5", store_directory(session->store));
+    TRY(text_status(&path));
+    const bool whole = store_read_results(&earlier, text_words(&path)) == OK;
+    text_free(&path);
+    if (!whole) return OK;
+    const Status status =
+        plan_has_checksum(earlier, checksum) ? OK : keep_earlier(session, earlier);
+    results_free(earlier);
+    return status;
+}
+
 static Status begin(Session *session, const SessionWishes *wishes) {
+    uint32_t checksum;
     TRY(plan_check(session->plan));
-    TRY(plan_check_input(session->plan));
+    TRY(plan_check_input(session->plan, &checksum));
     // Before the directory is made: a wish that cannot be granted leaves nothing behind.
     if (wishes->must_resume && !session_has_plan(wishes->directory)) {
         return status_fail(BAD_USAGE, "nothing to resume in %s", wishes->directory);
@@ -101,6 +129,7 @@ static Status begin(Session *session, const SessionWishes *wishes) {
     store_ignore_signals(); // before the first write
     TRY(store_open(&session->store, wishes->directory));
     TRY(take_plan(session));
+    if (session->resumes && checksum != 0) TRY(judge_earlier(session, checksum));
     if (!wishes->slots) TRY(ensemble_slots_create(&session->own_slots, wishes->threads));
     TRY(ensemble_create(&session->ensemble, session->plan, session->store,
                         wishes->slots ? wishes->slots : session->own_slots));
@@ -135,6 +164,10 @@ void session_close(Session *session) {
 
 bool session_resumes(const Session *session) {
     return session->resumes;
+}
+
+bool session_begins_anew(const Session *session) {
+    return session->anew;
 }
 
 bool session_running(const Session *session) {

@@ -21,6 +21,8 @@ typedef struct SessionWishes {
 Status session_open(Session **out, const Plan *plan, const SessionWishes *wishes);
 bool session_has_plan(const char *directory); // a run was begun there
 bool session_resumes(const Session *session); // there were results or checkpoints of this plan
+// What is read has changed since there were results: these are kept under a name of their own.
+bool session_begins_anew(const Session *session);
 
 bool session_running(const Session *session);
 EnsembleProgress session_progress(const Session *session);

@@ -188,19 +188,20 @@ void disk_discard(const Folder *folder, const char *name, int file) {
     if (file >= 0) close(file);
 }
 
+Status disk_rename(const Folder *folder, const char *name, const char *other) {
+    int result;
+    do result = renameat(folder->descriptor, name, folder->descriptor, other);
+    while (result != 0 && errno == EINTR);
+    return result == 0 ? disk_folder_sync(folder) : fail_at(folder, other, "give its name to");
+}
+
 static Status give_name(const Folder *folder, const char *name) {
     char *fresh = temporary(name);
     if (!fresh) return NO_MEMORY;
-    Status status = OK;
-    int result;
-    do result = renameat(folder->descriptor, fresh, folder->descriptor, name);
-    while (result != 0 && errno == EINTR);
-    if (result != 0) {
-        status = fail_at(folder, name, "give its name to");
-        unlinkat(folder->descriptor, fresh, 0);
-    }
+    const Status status = disk_rename(folder, fresh, name);
+    if (status != OK) unlinkat(folder->descriptor, fresh, 0); // or is gone with the new name
     free(fresh);
-    return status == OK ? disk_folder_sync(folder) : status;
+    return status;
 }
 
 Status disk_publish(const Folder *folder, const char *name, int file) {

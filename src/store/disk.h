@@ -39,6 +39,8 @@ Status disk_open(const Folder *folder, const char *name, int flags, int *file);
 
 // A new file under a temporary name, to be given its own by disk_publish.
 Status disk_create(const Folder *folder, const char *name, int *file);
+// Gives what is called `name` another name, in place of what had it, and syncs the folder.
+Status disk_rename(const Folder *folder, const char *name, const char *other);
 // Syncs and closes the file, gives it its name in place of what had it, and syncs the folder.
 Status disk_publish(const Folder *folder, const char *name, int file);
 void disk_discard(const Folder *folder, const char *name, int file);

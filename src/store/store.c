@@ -166,6 +166,10 @@ Status store_read_text(const Store *store, const char *name, char **text) {
     return OK;
 }
 
+Status store_rename(Store *store, const char *name, const char *other) {
+    return disk_rename(&store->folder, name, other);
+}
+
 // One write() to a file opened for appending: lines of several threads do not mix.
 static Status append_line(const Store *store, const char *line, size_t length) {
     const int log = openat(store->folder.descriptor, "log.txt",

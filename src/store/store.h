@@ -28,6 +28,9 @@ Status store_take_plan(Store *store, const char *plan, bool *resumes);
 Status store_write_text(Store *store, const char *name, const char *text);
 Status store_read_text(const Store *store, const char *name, char **text);
 
+// Gives a file of the directory another name, in place of what had it.
+Status store_rename(Store *store, const char *name, const char *other);
+
 // Appends a line, with date and time, to log.txt. Safe from any thread.
 Status store_log(Store *store, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -2,6 +2,7 @@
 // Structure factors from results.h5 files.
 #include "theory/measurements.h"
 
+#include "base/crc32c.h"
 #include "base/memory.h"
 #include "base/number.h"
 #include "store/store.h"
@@ -225,9 +226,10 @@ Status measurements_read(Measurements **out, const MeasurementsInput *input) {
     return OK;
 }
 
-Status measurements_check(const MeasurementsInput *input) {
+Status measurements_check(const MeasurementsInput *input, uint32_t *checksum) {
     Measurements *m = NULL;
     const Status status = measurements_read(&m, input);
+    if (status == OK) *checksum = measurements_checksum(m);
     measurements_free(m);
     return status;
 }
@@ -250,6 +252,25 @@ size_t measurements_replicas(const Measurements *m) {
         if (m->runs[i].replicas < least) least = m->runs[i].replicas;
     }
     return least;
+}
+
+static uint32_t sum_numbers(uint32_t before, const double *values, size_t count) {
+    return crc32c(before, values, count * sizeof *values);
+}
+
+uint32_t measurements_checksum(const Measurements *m) {
+    const Mixture *mixture = &m->mixture;
+    const double dimension = mixture->dimension;
+    uint32_t sum = sum_numbers(0, &dimension, 1);
+    sum = sum_numbers(sum, mixture->diameter, mixture->species);
+    sum = sum_numbers(sum, mixture->fraction, mixture->species);
+    for (size_t i = 0; i < m->count; i++) {
+        const MeasuredRun *run = &m->runs[i];
+        sum = sum_numbers(sum, &run->packing_fraction, 1);
+        sum = sum_numbers(sum, run->wave_number, run->count);
+        sum = sum_numbers(sum, run->factor, run->replicas * mixture_pairs(mixture) * run->count);
+    }
+    return sum;
 }
 
 Status measurements_fit(Measured **out, const Measurements *m, size_t groups, size_t omitted) {

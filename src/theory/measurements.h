@@ -7,6 +7,7 @@
 #include "oz/measured.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef struct Measurements Measurements;
 
@@ -19,11 +20,15 @@ typedef struct MeasurementsInput {
 
 // BAD_DATA with a sentence if there is none, or of another mixture.
 Status measurements_read(Measurements **out, const MeasurementsInput *input);
-Status measurements_check(const MeasurementsInput *input); // the same; keeps nothing
+// The same; keeps nothing but the checksum.
+Status measurements_check(const MeasurementsInput *input, uint32_t *checksum);
 void measurements_free(Measurements *measurements);
 
 const Mixture *measurements_mixture(const Measurements *measurements);
 size_t measurements_replicas(const Measurements *measurements); // of the run with the fewest
+// CRC-32C of what was read and can be used: the mixture, then of each run packing fraction, wave
+// numbers and the factors of all replicas.
+uint32_t measurements_checksum(const Measurements *measurements);
 
 // Smoothed: of all replicas, or without every replica whose number, modulo `groups` > 1, is
 // `omitted`.

@@ -402,9 +402,10 @@ MeasurementsInput theory_input(const TheoryPlan *plan) {
                                wants_transition(plan)};
 }
 
-Status theory_check_input(const TheoryPlan *plan) {
+Status theory_check_input(const TheoryPlan *plan, uint32_t *checksum) {
     const MeasurementsInput input = theory_input(plan);
-    return plan->structure == CLOSURE_MEASURED ? measurements_check(&input) : OK;
+    *checksum = 0;
+    return plan->structure == CLOSURE_MEASURED ? measurements_check(&input, checksum) : OK;
 }
 
 size_t theory_memory(const TheoryPlan *plan) {

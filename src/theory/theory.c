@@ -598,6 +598,10 @@ void theory_free(Theory *theory) {
     memory_free(theory);
 }
 
+uint32_t theory_checksum(const Theory *theory) {
+    return theory->measurements ? measurements_checksum(theory->measurements) : 0;
+}
+
 Status theory_advance(Theory *theory, Results *results) {
     TRY(steps[theory->step].work(theory, results));
     if (steps[theory->step].slices && theory->share < 1) return OK;

@@ -68,8 +68,9 @@ Mixture theory_mixture_of(int dimension, const TheorySpecies *species, size_t co
 
 void theory_complete(TheoryPlan *plan);      // what follows from other keys: a fraction left out
 Status theory_check(const TheoryPlan *plan); // BAD_DATA with a sentence
-// Likewise, whether files that are read are there and fit.
-Status theory_check_input(const TheoryPlan *plan);
+// Likewise, whether files that are read are there and fit; which is told apart by their checksum, 0
+// of a closure.
+Status theory_check_input(const TheoryPlan *plan, uint32_t *checksum);
 size_t theory_slots(const TheoryPlan *plan); // of the Results: more than one hold pseudo-values
 size_t theory_memory(const TheoryPlan *plan);
 double theory_seconds(const TheoryPlan *plan); // rough
@@ -78,6 +79,7 @@ const char *theory_structure_name(const TheoryPlan *plan);
 typedef struct Theory Theory;
 Status theory_create(Theory **out, const TheoryPlan *plan);
 void theory_free(Theory *theory);
+uint32_t theory_checksum(const Theory *theory); // of the structure that was read; 0: none
 
 // A slice of the work: mostly below a second. Results are put in as they come.
 Status theory_advance(Theory *theory, Results *results);

@@ -246,6 +246,7 @@ static TheoryPlan plan_from(const char *path) {
 }
 
 START_TEST(a_folder_of_runs_gives_the_transition_with_its_error) {
+    uint32_t checksum;
     static const char folder[] = "measured_runs";
     Samples *samples = sampled(CLOSURE_FUNDAMENTAL, &DISCS, 500);
     char path[64];
@@ -257,7 +258,7 @@ START_TEST(a_folder_of_runs_gives_the_transition_with_its_error) {
         write_run(samples, n, "1", path);
     }
     const TheoryPlan plan = plan_from(folder);
-    ck_assert_msg(theory_check_input(&plan) == OK, "%s", status_sentence());
+    ck_assert_msg(theory_check_input(&plan, &checksum) == OK, "%s", status_sentence());
     ck_assert_int_eq(results_create(&results, theory_slots(&plan)), OK);
     ck_assert_int_eq(theory_create(&theory, &plan), OK);
     while (!theory_finished(theory))
@@ -269,15 +270,15 @@ START_TEST(a_folder_of_runs_gives_the_transition_with_its_error) {
     ck_assert_double_eq_tol(found.value, 0.69064, 4 * found.error);
     // One packing fraction is not enough, another mixture is another, and there must be something.
     TheoryPlan other = plan_from("measured_runs/0");
-    ck_assert_int_eq(theory_check_input(&other), BAD_DATA);
+    ck_assert_int_eq(theory_check_input(&other, &checksum), BAD_DATA);
     other = plan;
     other.species[0].diameter = 1.1;
-    ck_assert_int_eq(theory_check_input(&other), BAD_DATA);
+    ck_assert_int_eq(theory_check_input(&other, &checksum), BAD_DATA);
     other = plan_from("measured_nowhere");
-    ck_assert_int_eq(theory_check_input(&other), BAD_DATA);
+    ck_assert_int_eq(theory_check_input(&other, &checksum), BAD_DATA);
     snprintf(other.input.file, sizeof other.input.file, "%s", folder);
     snprintf(other.input.stage, sizeof other.input.stage, "flow");
-    ck_assert_int_eq(theory_check_input(&other), BAD_DATA);
+    ck_assert_int_eq(theory_check_input(&other, &checksum), BAD_DATA);
     ck_assert_msg(strstr(status_sentence(), "stage flow"), "%s", status_sentence());
     theory_free(theory);
     results_free(results);
@@ -304,6 +305,7 @@ static double stress_of(const IttPlan *plan) {
 // The stress is that of the closed form that was sampled, at a packing fraction that is off by no
 // more than the transition may be: one in a thousand.
 START_TEST(discs_under_shear_may_have_a_measured_structure) {
+    uint32_t checksum;
     static const char folder[] = "measured_flows";
     Samples *samples = sampled(CLOSURE_FUNDAMENTAL, &DISCS, 500);
     char path[64];
@@ -328,14 +330,14 @@ START_TEST(discs_under_shear_may_have_a_measured_structure) {
     const double least = stress_of(&below), most = stress_of(&above);
     snprintf(plan.file, sizeof plan.file, "%s", folder);
     itt_complete(&plan);
-    ck_assert_msg(itt_check_input(&plan) == OK, "%s", status_sentence());
+    ck_assert_msg(itt_check_input(&plan, &checksum) == OK, "%s", status_sentence());
     const double stress = stress_of(&plan);
     ck_assert(stress > least && stress < most);
     snprintf(plan.file, sizeof plan.file, "%s/0",
              folder); // one state: no transition to be far from
     plan.packing_fraction = 0;
     plan.separation = 0.01;
-    ck_assert_int_eq(itt_check_input(&plan), BAD_DATA);
+    ck_assert_int_eq(itt_check_input(&plan, &checksum), BAD_DATA);
     free(samples);
 }
 END_TEST
