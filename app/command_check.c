@@ -232,13 +232,27 @@ static void print_slowest(const Plan *plan, double seconds) {
         plan_clock(plan, slowest).unit);
 }
 
+// Of which one replica has errors.
+static bool has_trajectories(const Plan *plan) {
+    for (size_t i = 0; i < plan->stage_count; i++) {
+        const Stage *stage = &plan->stages[i];
+        const double period = stage->drive.pull.period;
+        if ((drive_kinds(&stage->drive) & DRIVE_PULL) && period > 0 && 2 * period <= stage->time)
+            return true;
+    }
+    return false;
+}
+
 // The error of a standard error of n values is 1/sqrt(2 (n - 1)) of it.
-static void print_ensemble(const EnsemblePlan *ensemble) {
+static void print_ensemble(const Plan *plan) {
+    const EnsemblePlan *ensemble = &plan->ensemble;
     static const long long REPLICAS_FEW = 4;
     const long long replicas = (long long)ensemble->replicas;
     printf("ensemble  %lld replicas, seed %lld\n", replicas, (long long)ensemble->seed);
     if (replicas == 1)
-        printf("          one replica has no errors: take %lld or more\n", REPLICAS_FEW);
+        printf("          one replica has no errors%s: take %lld or more\n",
+               has_trajectories(plan) ? " but of how the tracer goes, over its trajectories" : "",
+               REPLICAS_FEW);
     else if (replicas < REPLICAS_FEW)
         printf("          of %lld replicas errors are known to %.0f %% only: take %lld or more\n",
                replicas, 100 / sqrt(2 * (double)(replicas - 1)), REPLICAS_FEW);
@@ -334,7 +348,7 @@ static Status print_plan(const Plan *plan) {
     print_species(&plan->system);
     for (size_t s = 0; s < plan->stage_count; s++) TRY(print_stage(plan, s));
     print_equilibrium(plan);
-    print_ensemble(&plan->ensemble);
+    print_ensemble(plan);
     print_cost(plan);
     return OK;
 }

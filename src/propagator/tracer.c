@@ -79,13 +79,23 @@ Status tracer_check(const Pull *pull, const System *system) {
     return status_fail(BAD_DATA, "pull = {axis: z}: the system has two dimensions; use x or y");
 }
 
+// What the tracer sweeps is as wide as it and its neighbours are, across: its diameter, or the mean
+// of that and the largest of the bath where it is the smaller one.
+static double tracer_width(const Pull *pull, const System *system) {
+    const size_t tracer = tracer_species(pull, system);
+    double largest = system->species[tracer].diameter;
+    for (size_t s = 0; s < system->species_count; s++)
+        largest = fmax(largest, system->species[s].diameter);
+    return (system->species[tracer].diameter + largest) / 2;
+}
+
 // The tracer goes 3/4 of the edge, and what it has left behind must have closed in the rest.
 Status tracer_check_box(const Pull *pull, const System *system) {
-    static const double STRONG = 1, EDGE_LEAST = 12; // Peclet number; in tracer diameters
+    static const double STRONG = 1, EDGE_LEAST = 12; // Peclet number; in widths
     const Box box = system_box(system);
-    const double diameter = system->species[tracer_species(pull, system)].diameter;
+    const double width = tracer_width(pull, system);
     const double edge = box.edge[pull->axis];
-    if (pull->peclet < STRONG || edge >= EDGE_LEAST * diameter) return OK;
+    if (pull->peclet < STRONG || edge >= EDGE_LEAST * width) return OK;
     const int axis = (int)pull->axis, dimension = (int)system->dimension;
     char aspect[16] = "";
     for (int a = 0, used = 0; a < dimension; a++)
@@ -95,7 +105,7 @@ Status tracer_check_box(const Pull *pull, const System *system) {
                        "pull = {peclet: %g}: the box is %.3g d long along %s, so that the tracer "
                        "would meet its own wake; make it at least %.3g d long, with more particles "
                        "or an aspect such as [%s]",
-                       pull->peclet, edge, drive_pull_axes[axis], EDGE_LEAST * diameter, aspect);
+                       pull->peclet, edge, drive_pull_axes[axis], EDGE_LEAST * width, aspect);
 }
 
 double tracer_free_diffusion(const Pull *pull, const System *system, bool thermostatted) {

@@ -139,6 +139,8 @@ expect "check says below which friction a trajectory ends before its time" \
     of_step "a friction below [1-9].* ends before its time" --set dynamics.step=0.003
 expect "of one that cannot go so far it does not" \
     not_of_step "before its time" --set protocol.pulled.pull.peclet=1
+expect "check says that the trajectories of one replica give errors" \
+    sh -c "'$perrin' check pulled.yaml --set ensemble.replicas=1 | grep -q 'but of how the tracer goes'"
 expect "check says which calibration leads it into its own wake" \
     of_step "own wake.*calibration = [1-9].*would not" --set dynamics.step=0.01 --set dynamics.calibration=20000
 expect "of a short one it does not" \
