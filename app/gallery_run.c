@@ -65,7 +65,8 @@ static Status run_plan(const GalleryRun *run, const char *run_file, const char *
     return status;
 }
 
-// The settings of the full run, which are for run.yaml, come last, so that they win.
+// The settings of the full run come last, so that they win: those of full.txt, which are for
+// run.yaml, then those of the point.
 static Status run_point(const GalleryRun *run, const Csv *points, size_t row) {
     const char *other = csv_cell(points, row, "run_file");
     char path[GALLERY_PATH];
@@ -73,7 +74,8 @@ static Status run_point(const GalleryRun *run, const Csv *points, size_t row) {
     TRY(gallery_path(path, run->entry, "full.txt"));
     if (run->full && other[0] == '\0') TRY(csv_read_text(path, &full));
     Text settings = {0};
-    text_add(&settings, "%s\n%s\n", csv_cell(points, row, "settings"), full ? full : "");
+    text_add(&settings, "%s\n%s\n%s\n", csv_cell(points, row, "settings"), full ? full : "",
+             run->full ? csv_cell(points, row, "full") : "");
     memory_free(full);
     Status status = text_status(&settings);
     if (status == OK)

@@ -6,7 +6,8 @@ set -u
 perrin=$1 gallery=$2
 failed=0
 
-# points.csv: a line per point, its run file and then its settings. Commas within quotes are theirs.
+# points.csv: a line per point, its run file, its settings and those of its full run. Commas within
+# quotes are theirs.
 points() {
     awk '!/^#/ && !/^point,/ {
         split("", field)
@@ -18,7 +19,7 @@ points() {
             else if (c == "," && !quoted) n++
             else field[n] = field[n] c
         }
-        print (field[5] == "" ? "run.yaml" : field[5]), field[4]
+        print (field[5] == "" ? "run.yaml" : field[5]) "|" field[4] "|" field[6]
     }' "$1"
 }
 
@@ -30,12 +31,12 @@ for entry in "$gallery"/*/; do
     grep -q '{/Symbol' "${entry}figure.gp" &&
         { echo "${entry}figure.gp: browsers have no font Symbol; write the letter"; failed=1; }
     full=$(grep -v '^#' "${entry}full.txt" | tr '\n' ' ')
-    while read -r file settings; do
+    while IFS='|' read -r file settings own; do
         # A run file of its own reads what points before it give, which is not there.
         all=
         [ "$file" = run.yaml ] || all=--all
-        for more in "" "$full"; do
-            [ "$file" = run.yaml ] || more=
+        [ "$file" = run.yaml ] && own="$full $own"
+        for more in "" "$own"; do
             set --
             for setting in $(echo "$settings" | sed 's/{results}/results/') $more; do
                 set -- "$@" --set "$setting"
