@@ -50,7 +50,8 @@ static const Option rows[] = {
      .least = 8,
      .most = 100,
      .unit = "1/d",
-     .about = "The largest length of a wave vector."},
+     .about = "The largest length of a wave vector: 30 gives stresses of equal discs 2 % too "
+              "low, of mixtures more."},
     {.name = "shear_rate",
      .type = OPTION_REAL,
      .offset = offsetof(IttPlan, shear_rate),

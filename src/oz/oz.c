@@ -36,6 +36,10 @@ bool oz_is_of_one_species(Closure closure) {
     return closed_forms[closure].fill != NULL;
 }
 
+int oz_dimension_of(Closure closure) {
+    return closed_forms[closure].dimension;
+}
+
 struct Oz {
     Closure closure;
     Structure structure;

@@ -31,6 +31,7 @@ typedef struct Structure {
 } Structure;
 
 bool oz_is_of_one_species(Closure closure); // and no other
+int oz_dimension_of(Closure closure);       // the only one it is for; 0: any
 
 typedef struct Oz Oz;
 

@@ -136,12 +136,18 @@ static bool axis_has(const ResultAxis *axis, const char *label) {
     return false;
 }
 
-// The only label of an axis that is drawn: the one that the kind says, or the sum over species
-// where there would be too many curves. NULL: all are.
+// Of one species its own curve is the total.
+static bool is_twice_the_same(const ResultAxis *axis) {
+    return strcmp(axis->name, "pair") == 0 && axis->count == 2 && axis_has(axis, "total");
+}
+
+// The only label of an axis that is drawn: the one that the kind says, the total of one species, or
+// the sum over species where there would be too many curves. NULL: all are.
 static const char *only_label(const Figure *figure, const ResultAxis *axis) {
     static const char *const sums[] = {"all", "total"};
     if (figure->kind && figure->kind->only && axis_has(axis, figure->kind->only))
         return figure->kind->only;
+    if (is_twice_the_same(axis)) return "total";
     for (size_t i = 0; figure->sums_alone && i < sizeof sums / sizeof *sums; i++) {
         if (axis_has(axis, sums[i])) return sums[i];
     }

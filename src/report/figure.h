@@ -27,11 +27,12 @@ typedef struct FigureKind {
     const char *title;
     const char *x, *y; // symbols
     bool log_x, log_y;
-    double y_least;      // where a logarithmic y axis of a decade or two begins; 0: of any length
-    const char *key;     // where gnuplot puts the legend
-    const char *only;    // of the labels of an axis that has it, the one to draw
-    const char *line;    // another series of the stage, of this shape: drawn as lines
-    const char *formula; // or a function of x, in gnuplot's notation
+    double y_least;       // where a logarithmic y axis of a decade or two begins; 0: of any length
+    double y_low, y_high; // what of a linear y axis is shown, where values run away; both 0: all
+    const char *key;      // where gnuplot puts the legend
+    const char *only;     // of the labels of an axis that has it, the one to draw
+    const char *line;     // another series of the stage, of this shape: drawn as lines
+    const char *formula;  // or a function of x, in gnuplot's notation
     const char *line_title;
     const char *ratio;  // symbol of value/line, in a panel below
     const char *upward; // the axis along y of a picture whose colour is the value, `y` its symbol

@@ -153,7 +153,9 @@ static bool is_log_x(const Figure *figure) {
 
 static void put_y_scale(Text *script, const Figure *figure) {
     const FigureKind *kind = figure->kind;
-    if (!kind || !kind->log_y)
+    if (kind && kind->y_low < kind->y_high)
+        text_add(script, "set format y '%%g'\nset yrange [%g:%g]\n", kind->y_low, kind->y_high);
+    else if (!kind || !kind->log_y)
         text_put(script, "set format y '%g'\n");
     else if (kind->y_least > 0)
         text_add(

@@ -26,7 +26,7 @@ static void add_waves(ResultSeries *series, const double *wave_number, size_t co
 }
 
 static void add_times(ResultSeries *series, const Kept *kept) {
-    theory_add_numbers(series, "time", "d^2/D0", kept->times, kept->time);
+    theory_add_numbers(series, "time", kept->unit_of_time, kept->times, kept->time);
 }
 
 // Into all[pair][at], and their sum over ordered pairs into the last line.

@@ -31,6 +31,7 @@ typedef struct Kept {
     double wave_number[OPTION_LIST_SIZE];
     size_t index[OPTION_LIST_SIZE];                     // of the wave numbers on the grid
     double start[MIXTURE_PAIRS_MOST][OPTION_LIST_SIZE]; // S_ab, what the correlators begin at
+    const char *unit_of_time;
     double *time;
     double *collective, *self, *displacement; // self and displacement NULL: none
 } Kept;

@@ -335,6 +335,7 @@ static Status kept_create(Theory *theory, double first, double last, double per_
     Kept *kept = &theory->kept;
     const size_t species = theory->plan->species_count;
     memset(kept, 0, sizeof *kept);
+    kept->unit_of_time = "d^2/D0";
     kept->waves = wanted->count > 0 ? (size_t)wanted->count : 1;
     for (size_t i = 0; i < kept->waves; i++) {
         kept->index[i] =
@@ -454,6 +455,7 @@ static Status begin_master(Theory *theory) {
     TRY(oz_solve(theory->oz, point->packing_fraction, &theory->structure));
     TRY(kept_create(theory, MASTER_FIRST, MASTER_LAST, (double)theory->plan->times_per_decade,
                     false));
+    theory->kept.unit_of_time = "t'";
     return correlators_create_master(&theory->correlators, theory->grid, theory->structure,
                                      point->form, point->amplitude, point->exponents.b);
 }

@@ -424,6 +424,49 @@ START_TEST(an_observable_without_a_row_is_drawn_by_the_plain_rule) {
 }
 END_TEST
 
+// Structure of one species: its own curve is the total, and has no need of a name.
+START_TEST(one_species_is_drawn_once) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    const double q[] = {1, 2};
+    const char *const pairs[] = {"disc-disc", "total"};
+    const ResultSeries shape = {
+        .stage = "theory",
+        .observable = "structure_factor",
+        .axes = 2,
+        .axis = {{.name = "pair", .unit = "", .count = 2, .labels = pairs},
+                 {.name = "wave_number", .unit = "1/d", .count = 2, .values = q}}};
+    const double values[] = {1, 2, 1, 2};
+    results_put_series(results, &shape, 0, values);
+    const Figure figure = figure_of(results, &results->series[0]);
+    ck_assert_uint_eq(figure.curve_count, 1);
+    ck_assert_uint_eq(figure.curve[0].first, 2);
+    ck_assert_str_eq(figure.curve[0].title, "");
+    results_free(results);
+}
+END_TEST
+
+// G falls as t^-a from values that would hide the rest, on an axis whose unit is t_sigma.
+START_TEST(beta_scaling_is_shown_about_its_plateau) {
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    const double t[] = {1e-6, 1, 100}, values[] = {82, 0, -10};
+    const ResultSeries shape = {
+        .stage = "theory",
+        .observable = "beta_scaling_fluid",
+        .axes = 1,
+        .axis = {{.name = "time", .unit = "t_sigma", .count = 3, .values = t}}};
+    results_put_series(results, &shape, 0, values);
+    const Figure figure = figure_of(results, &results->series[0]);
+    Text script = {0};
+    figure_script(&script, &figure);
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "set yrange [-4:8]"));
+    ck_assert_ptr_null(strstr(text_words(&script), "t / t_"));
+    text_free(&script);
+    results_free(results);
+}
+END_TEST
+
 // Relaxation times over four densities and two wave numbers, which the points of a sweep had in
 // common with the first: with `points` numbers of each.
 static void figure_of_a_sweep(size_t points, bool together, bool *exists, Text *caption) {
@@ -735,6 +778,8 @@ int main(void) {
     tcase_add_test(tests, a_broken_limit_is_the_first_thing_a_reader_sees);
     tcase_add_test(tests, where_nothing_can_be_written_the_sentence_names_the_path);
     tcase_add_test(tests, an_observable_without_a_row_is_drawn_by_the_plain_rule);
+    tcase_add_test(tests, one_species_is_drawn_once);
+    tcase_add_test(tests, beta_scaling_is_shown_about_its_plateau);
     tcase_add_test(tests, a_figure_of_a_sweep_says_which_points_it_lacks);
     tcase_add_test(tests, a_limit_is_drawn_over_its_half_of_the_axis);
     tcase_add_test(tests, friction_at_rest_is_a_level_where_forces_are_weak);
