@@ -283,11 +283,13 @@ static void print_cost(const Plan *plan) {
            "much\n");
 }
 
-static void print_theory_cost(double bytes, double seconds) {
+static void print_theory_cost(const Plan *plan) {
+    const size_t slots = plan_slots(plan);
     printf("memory    ");
-    print_bytes(bytes);
+    print_bytes((double)plan_memory(plan));
     printf("\ntime      about ");
-    print_seconds(seconds);
+    print_seconds(plan_seconds(plan));
+    if (slots > 1) printf(", for errors all is done %zu times: structure.groups", slots + 1);
     printf("\n");
 }
 
@@ -304,7 +306,6 @@ static void print_theory(const TheoryPlan *theory) {
     printf("          %lld wave numbers up to %.6g/d\n", (long long)theory->wave_numbers,
            theory->last_wave_number);
     print_theory_species(theory->species, theory->species_count);
-    print_theory_cost((double)theory_memory(theory), theory_seconds(theory));
 }
 
 static void print_itt(const IttPlan *itt) {
@@ -314,7 +315,6 @@ static void print_itt(const IttPlan *itt) {
     printf("          wave vectors up to %.6g/d, spacing %.6g/d\n", itt->last_wave_number,
            itt->spacing);
     print_theory_species(itt->species, itt->species_count);
-    print_theory_cost((double)itt_memory(itt), itt_seconds(itt));
 }
 
 static void print_schematic(const SchematicPlan *schematic) {
@@ -326,24 +326,23 @@ static void print_schematic(const SchematicPlan *schematic) {
     schematic_say_drive(&drive, schematic);
     printf("          %s\n", text_words(&drive));
     text_free(&drive);
-    print_theory_cost((double)schematic_memory(schematic), schematic_seconds(schematic));
+}
+
+static Status print_calculation(const Plan *plan) {
+    uint32_t checksum;
+    if (plan->itt.given)
+        print_itt(&plan->itt);
+    else if (plan->schematic.given)
+        print_schematic(&plan->schematic);
+    else
+        print_theory(&plan->theory);
+    print_theory_cost(plan);
+    return plan_check_input(plan, &checksum);
 }
 
 static Status print_plan(const Plan *plan) {
     if (plan->title[0] != '\0') printf("%s\n", plan->title);
-    if (plan->itt.given) {
-        print_itt(&plan->itt);
-        return OK;
-    }
-    if (plan->schematic.given) {
-        print_schematic(&plan->schematic);
-        return OK;
-    }
-    if (plan_is_theory(plan)) {
-        uint32_t checksum;
-        print_theory(&plan->theory);
-        return plan_check_input(plan, &checksum);
-    }
+    if (plan_is_theory(plan)) return print_calculation(plan);
     print_system(&plan->system);
     print_species(&plan->system);
     for (size_t s = 0; s < plan->stage_count; s++) TRY(print_stage(plan, s));

@@ -3,8 +3,6 @@
 #pragma once
 
 #include "itt/itt.h"
-#include "theory/measurements.h"
 
 const TheorySpecies *itt_species(const IttPlan *plan, size_t *count); // never none
 Mixture itt_mixture(const IttPlan *plan);
-MeasurementsInput itt_input(const IttPlan *plan);

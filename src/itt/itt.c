@@ -32,8 +32,7 @@ struct Itt {
     const IttPlan *plan;
     Step step;
     double packing_fraction;
-    Measured *measured; // structure in place of the closure's; NULL: none
-    uint32_t checksum;  // of its numbers
+    const Measured *measured; // structure in place of the closure's; NULL: none
     Plane *plane;
     Direct *direct;
     Transient *transient;
@@ -322,30 +321,15 @@ static Status solve_transients(Itt *itt, Results *results) {
 
 // ---- The whole ---------------------------------------------------------------------------------
 
-static Status read_structure(Itt *itt) {
-    Measurements *measurements = NULL;
-    const MeasurementsInput input = itt_input(itt->plan);
-    if (itt->plan->structure != CLOSURE_MEASURED) return OK;
-    TRY(measurements_read(&measurements, &input));
-    itt->checksum = measurements_checksum(measurements);
-    const Status status = measurements_fit(&itt->measured, measurements, 0, 0);
-    measurements_free(measurements);
-    return status;
-}
-
-Status itt_create(Itt **out, const IttPlan *plan) {
+Status itt_create(Itt **out, const IttPlan *plan, const Measured *measured) {
     Itt *itt = NULL;
-    *out = NULL;
     TRY(NEW(itt));
     itt->plan = plan;
     itt->packing_fraction = plan->packing_fraction;
     itt->step = plan->packing_fraction > 0 ? STEP_STRUCTURE : STEP_CRITICAL;
-    const Status status = read_structure(itt);
-    if (status == OK)
-        *out = itt;
-    else
-        itt_free(itt);
-    return status;
+    itt->measured = measured;
+    *out = itt;
+    return OK;
 }
 
 void itt_free(Itt *itt) {
@@ -355,12 +339,7 @@ void itt_free(Itt *itt) {
     transient_free(itt->transient);
     plane_free(itt->plane);
     direct_free(itt->direct);
-    measured_free(itt->measured);
     memory_free(itt);
-}
-
-uint32_t itt_checksum(const Itt *itt) {
-    return itt->checksum;
 }
 
 Status itt_advance(Itt *itt, Results *results) {

@@ -13,8 +13,7 @@
 typedef struct IttPlan {
     bool given;                          // false: no run of this theory
     int64_t structure;                   // a Closure
-    char file[OPTION_TEXT_SIZE];         // of CLOSURE_MEASURED, as measurements_read takes it
-    char stage[OPTION_TEXT_SIZE];        // likewise
+    TheoryInput input;                   // of CLOSURE_MEASURED
     double packing_fraction, separation; // one of them: separation is phi/phi_c - 1
     double spacing, last_wave_number;
     double shear_rate;  // in D0/d^2
@@ -34,14 +33,15 @@ void itt_complete(IttPlan *plan);      // what follows from other keys: a file i
 Status itt_check(const IttPlan *plan); // BAD_DATA with a sentence
 // Likewise, whether files that are read are there and fit, with their checksum, 0 of a closure.
 Status itt_check_input(const IttPlan *plan, uint32_t *checksum);
+MeasurementsInput itt_input(const IttPlan *plan); // of a measured structure
 size_t itt_memory(const IttPlan *plan);
 double itt_seconds(const IttPlan *plan); // rough
 const char *itt_structure_name(const IttPlan *plan);
 
 typedef struct Itt Itt;
-Status itt_create(Itt **out, const IttPlan *plan);
+// From the structure that the plan asks for: `measured`, which is borrowed, where it is of files.
+Status itt_create(Itt **out, const IttPlan *plan, const Measured *measured);
 void itt_free(Itt *itt);
-uint32_t itt_checksum(const Itt *itt); // of the structure that was read; 0: none
 
 // A slice of the work: mostly below a second. Results are put in as they come.
 Status itt_advance(Itt *itt, Results *results);

@@ -18,7 +18,7 @@ static const Option rows[] = {
      .about = "Where the structure factor at rest comes from: a closure of the Ornstein-Zernike "
               "equation, or a closed form for one species; or a simulation, as {file: results.h5}.",
      .choices = closure_names},
-    MEASUREMENTS_OPTIONS(IttPlan, file, stage),
+    MEASUREMENTS_OPTIONS(IttPlan, input.file, input.stage, input.groups),
     {.name = "packing_fraction",
      .type = OPTION_REAL,
      .offset = offsetof(IttPlan, packing_fraction),
@@ -130,12 +130,12 @@ static Status check_wave_numbers(const IttPlan *plan) {
 
 void itt_complete(IttPlan *plan) {
     theory_complete_species(plan->species, plan->species_count);
-    if (plan->file[0]) plan->structure = CLOSURE_MEASURED;
+    if (plan->input.file[0]) plan->structure = CLOSURE_MEASURED;
 }
 
 Status itt_check(const IttPlan *plan) {
     TRY(theory_check_species(plan->species, plan->species_count));
-    if (plan->structure == CLOSURE_MEASURED && !plan->file[0])
+    if (plan->structure == CLOSURE_MEASURED && !plan->input.file[0])
         return status_fail(BAD_DATA, "a measured structure needs a file; write structure: {file: "
                                      "results.h5}");
     if (plan->structure == CLOSURE_VERLET_WEIS)
@@ -173,7 +173,8 @@ Mixture itt_mixture(const IttPlan *plan) {
 }
 
 MeasurementsInput itt_input(const IttPlan *plan) {
-    return (MeasurementsInput){plan->file, plan->stage, itt_mixture(plan), plan->separation != 0};
+    return (MeasurementsInput){plan->input.file, plan->input.stage, itt_mixture(plan),
+                               plan->separation != 0};
 }
 
 Status itt_check_input(const IttPlan *plan, uint32_t *checksum) {
@@ -202,5 +203,5 @@ double itt_seconds(const IttPlan *plan) {
 }
 
 const char *itt_structure_name(const IttPlan *plan) {
-    return plan->structure == CLOSURE_MEASURED ? plan->file : closure_names[plan->structure];
+    return plan->structure == CLOSURE_MEASURED ? plan->input.file : closure_names[plan->structure];
 }

@@ -18,8 +18,9 @@ double calculation_progress(const Calculation *calculation);   // 0 to 1
 const char *calculation_doing(const Calculation *calculation); // "critical point"
 double calculation_time(const Calculation *calculation);       // in d^2/D0; 0: none
 
-// Only the transients of a theory under shear take long enough to be saved. They are loaded into a
-// calculation that has just been created; what was put into results before is put there again.
+// Only the transients of a theory under shear take long enough to be saved, and what was done with
+// all samples and without some of them. They are loaded into a calculation that has just been
+// created; what was put into results before is put there again.
 bool calculation_can_save(const Calculation *calculation);
 void calculation_save(Calculation *calculation, Archive *archive);
 Status calculation_load(Calculation *calculation, Results *results, Archive *archive);

@@ -230,6 +230,11 @@ Status plan_check_input(const Plan *plan, uint32_t *checksum) {
     return plan->theory.species_count > 0 ? theory_check_input(&plan->theory, checksum) : OK;
 }
 
+const TheoryInput *plan_input(const Plan *plan) {
+    const TheoryInput *input = plan->itt.given ? &plan->itt.input : &plan->theory.input;
+    return input->file[0] ? input : NULL;
+}
+
 static const char *checksum_words(char words[16], uint32_t checksum) {
     snprintf(words, 16, "%08x", (unsigned)checksum);
     return words;
@@ -248,7 +253,8 @@ bool plan_has_checksum(const Results *results, uint32_t checksum) {
 }
 
 size_t plan_slots(const Plan *plan) {
-    if (plan->theory.species_count > 0) return theory_slots(&plan->theory);
+    const TheoryInput *input = plan_input(plan);
+    if (plan_is_theory(plan)) return input ? (size_t)input->groups : 1;
     return (size_t)plan->ensemble.replicas;
 }
 
@@ -279,10 +285,16 @@ double plan_stage_seconds(const Plan *plan, size_t stage) {
            (double)plan->system.particles * (double)plan_clock(plan, stage).ticks;
 }
 
+// With all that is measured and without each group of it.
+static double passes(const Plan *plan) {
+    const size_t slots = plan_slots(plan);
+    return slots > 1 ? (double)slots + 1 : 1;
+}
+
 double plan_seconds(const Plan *plan) {
-    if (plan->itt.given) return itt_seconds(&plan->itt);
+    if (plan->itt.given) return passes(plan) * itt_seconds(&plan->itt);
     if (plan->schematic.given) return schematic_seconds(&plan->schematic);
-    if (plan_is_theory(plan)) return theory_seconds(&plan->theory);
+    if (plan_is_theory(plan)) return passes(plan) * theory_seconds(&plan->theory);
     double seconds = 0;
     for (size_t s = 0; s < plan->stage_count; s++) seconds += plan_stage_seconds(plan, s);
     return seconds;

@@ -74,6 +74,7 @@ Status plan_check(const Plan *plan);
 // Likewise, if a file that is read is not there or does not fit. `checksum` tells its numbers apart
 // from others; 0: nothing is read.
 Status plan_check_input(const Plan *plan, uint32_t *checksum);
+const TheoryInput *plan_input(const Plan *plan); // NULL: nothing is read
 // Results carry that of the numbers that they come from as a fact, in eight hexadecimal digits.
 Status plan_put_checksum(Results *results, uint32_t checksum);
 bool plan_has_checksum(const Results *results, uint32_t checksum);

@@ -107,6 +107,13 @@ const char *results_find_fact(const Results *results, const char *name); // NULL
 // False of a series that a sweep could not put together from all its points.
 bool results_side_by_side(const Results *results, const ResultSeries *series);
 
+// From those of all samples, from[0], and those without each of the groups, from[1] to
+// from[groups]: pseudo-values in place of replicas, so that mean and standard error are those of
+// the jackknife. Without error, in the first place alone, stand flags and numbers that are the same
+// whatever is left out, and what some of the results lack, have over other axes or know no finite
+// value of. Health is that of all samples.
+Status results_jackknife(Results *results, Results *const *from, size_t groups);
+
 bool result_healthy(const ResultCounter *counter);
 const ResultCounter *results_broken_limit(const Results *results); // the first; NULL if healthy
 

@@ -8,4 +8,3 @@
 Mixture theory_mixture(const TheoryPlan *plan);
 // What the transition is searched along, and of which species.
 MixtureAxis theory_search_axis(const TheoryPlan *plan, size_t *species);
-MeasurementsInput theory_input(const TheoryPlan *plan);

@@ -36,7 +36,7 @@ Status measurements_fit(Measured **out, const Measurements *measurements, size_t
                         size_t omitted);
 
 // Rows of an option table, of a settings struct with such a path and stage.
-#define MEASUREMENTS_OPTIONS(Type, path_field, stage_field)                                        \
+#define MEASUREMENTS_OPTIONS(Type, path_field, stage_field, groups_field)                          \
     {.name = "structure.file",                                                                     \
      .type = OPTION_TEXT,                                                                          \
      .offset = offsetof(Type, path_field),                                                         \
@@ -44,8 +44,16 @@ Status measurements_fit(Measured **out, const Measurements *measurements, size_t
      .about = "A results.h5, a run directory, or a folder of such with a packing fraction each, "  \
               "as a sweep makes: structure_factor was observed there, best up to 40/d in shells "  \
               "of 0.1. Relative paths begin where perrin is run."},                                \
+        {.name = "structure.stage",                                                                \
+         .type = OPTION_TEXT,                                                                      \
+         .offset = offsetof(Type, stage_field),                                                    \
+         .unit = "",                                                                               \
+         .about = "The stage whose structure_factor is read; empty: the only one that has it."},   \
     {                                                                                              \
-        .name = "structure.stage", .type = OPTION_TEXT, .offset = offsetof(Type, stage_field),     \
+        .name = "structure.groups", .type = OPTION_INTEGER,                                        \
+        .offset = offsetof(Type, groups_field), .fallback = 8, .least = 1, .most = 1000,           \
         .unit = "",                                                                                \
-        .about = "The stage whose structure_factor is read; empty: the only one that has it.",     \
+        .about = "Replicas fall into so many groups, each of which is left out in turn and the "   \
+                 "whole done again: from what then changes follow the errors of all numbers and "  \
+                 "curves. It takes so many times longer, and once. 1: no errors.",                 \
     }

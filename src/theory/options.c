@@ -30,16 +30,7 @@ static const Option rows[] = {
      .about = "Where the structure factors come from: a closure of the Ornstein-Zernike equation, "
               "or a closed form for one species; or a simulation, as {file: results.h5}.",
      .choices = closure_names},
-    MEASUREMENTS_OPTIONS(TheoryPlan, input.file, input.stage),
-    {.name = "structure.groups",
-     .type = OPTION_INTEGER,
-     .offset = offsetof(TheoryPlan, input.groups),
-     .fallback = 8,
-     .least = 1,
-     .most = 1000,
-     .unit = "",
-     .about = "Replicas fall into so many groups, each of which is left out in turn: from what "
-              "then changes follow the errors of the transition and its exponents. 1: no errors."},
+    MEASUREMENTS_OPTIONS(TheoryPlan, input.file, input.stage, input.groups),
     {.name = "packing_fraction",
      .type = OPTION_REAL,
      .offset = offsetof(TheoryPlan, packing_fraction),
@@ -236,11 +227,6 @@ void theory_complete(TheoryPlan *plan) {
 static bool wants_transition(const TheoryPlan *plan) {
     return wants(plan, THEORY_CRITICAL) || wants(plan, THEORY_EXPONENTS) ||
            wants(plan, THEORY_BETA) || wants(plan, THEORY_MASTER) || plan->separation != 0;
-}
-
-size_t theory_slots(const TheoryPlan *plan) {
-    const bool errors = plan->structure == CLOSURE_MEASURED && wants_transition(plan);
-    return errors ? (size_t)plan->input.groups : 1;
 }
 
 Status theory_check_species(const TheorySpecies *species, size_t count) {
@@ -450,8 +436,7 @@ double theory_seconds(const TheoryPlan *plan) {
     const double species = (double)plan->species_count, waves = (double)plan->wave_numbers;
     const double kernel = 1e-9 * 1.5 * waves * waves * species * (species + 1) / 2;
     double evaluations = 200;
-    if (plan->calculate & (1u << THEORY_CRITICAL | 1u << THEORY_EXPONENTS))
-        evaluations += 4000 * (double)(theory_slots(plan) > 1 ? theory_slots(plan) + 1 : 1);
+    if (wants_transition(plan)) evaluations += 4000;
     if (wants(plan, THEORY_CORRELATORS))
         evaluations += 3.5 * (double)plan->block * log2(plan->last_time / 1e-8);
     if (wants(plan, THEORY_FLOW_CURVE))

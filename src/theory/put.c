@@ -82,10 +82,6 @@ Status put_contacts(Results *results, const TheoryPlan *plan, const Structure *s
                              oz_compressibility_factor(structure));
 }
 
-Status put_slot(Results *results, const char *name, const char *about, size_t slot, double value) {
-    return results_put_scalar(results, STAGE, name, "", about, slot, value);
-}
-
 Status put_curve(Results *results, const char *name, const char *unit_of_time, const double *time,
                  size_t count, const double *values) {
     ResultSeries shape = theory_series(name, "", "");

@@ -17,8 +17,6 @@ Status put_species(Results *results, const TheoryPlan *plan, const char *name,
 // Pair distributions at contact and the pressure that follows from them, unless the closed form has
 // none.
 Status put_contacts(Results *results, const TheoryPlan *plan, const Structure *structure);
-// One value of several that together say the error.
-Status put_slot(Results *results, const char *name, const char *about, size_t slot, double value);
 Status put_curve(Results *results, const char *name, const char *unit_of_time, const double *time,
                  size_t count, const double *values);
 // Stresses against shear rates.

@@ -29,23 +29,14 @@ static const double NOT_DIFFUSIVE = 0.01;
 // errors of the slope are those of the parts.
 static const double MISMATCH = 0.02, MISMATCH_ALONG = 0.05;
 
-// What is known of the transition as numbers.
-enum { NUMBERS = 8 };
-typedef struct Numbers {
-    double value[NUMBERS];
-} Numbers;
-
 struct Theory {
     const TheoryPlan *plan;
     Mixture mixture;
-    Measurements *measurements; // of which `measured` is the fit; NULL: a closure
-    Measured *measured;
+    const Measured *measured; // structure in place of the closure's; NULL: none
     Grid *grid;
     Oz *oz;
     const Structure *structure; // at the packing fraction of the plan; NULL before
     CriticalPoint *critical;    // NULL: not wanted
-    size_t groups, group;       // of replicas, to be left out: of how many which is next
-    Numbers whole;              // of all replicas
     Correlators *correlators;   // while they are being calculated
     Kept kept;
     Sheared *sheared;           // while it is calculated
@@ -76,7 +67,7 @@ static bool wants_critical(const Theory *theory) {
 static const struct {
     const char *name, *about;
     bool exponent;
-} number_rows[NUMBERS] = {
+} number_rows[] = {
     {"critical_packing_fraction", "Packing fraction of the glass transition.", false},
     {"exponent_parameter", "Exponent parameter lambda.", true},
     {"exponent_a", "Critical exponent a: G -> (t/t0)^-a.", true},
@@ -93,20 +84,23 @@ static const struct {
      true},
 };
 
-static Status numbers_of(const CriticalPoint *point, Numbers *numbers) {
+static Status put_numbers(const Theory *theory, Results *results) {
+    enum { NUMBERS = sizeof number_rows / sizeof *number_rows };
+    const CriticalPoint *point = theory->critical;
     const Exponents *e = &point->exponents;
     double amplitude;
     TRY(beta_von_schweidler(e->lambda, &amplitude));
-    *numbers = (Numbers){{point->packing_fraction, e->lambda, e->a, e->b, e->gamma, amplitude,
-                          point->slope, point->shear}};
-    return OK;
-}
-
-static Status put_numbers(const Theory *theory, Results *results, const Numbers *numbers,
-                          size_t slot) {
+    const double value[NUMBERS] = {point->packing_fraction,
+                                   e->lambda,
+                                   e->a,
+                                   e->b,
+                                   e->gamma,
+                                   amplitude,
+                                   point->slope,
+                                   point->shear};
     for (size_t i = 0; i < NUMBERS; i++) {
         if (number_rows[i].exponent && !wants(theory, THEORY_EXPONENTS)) continue;
-        TRY(put_slot(results, number_rows[i].name, number_rows[i].about, slot, numbers->value[i]));
+        TRY(theory_put_number(results, number_rows[i].name, "", number_rows[i].about, value[i]));
     }
     return OK;
 }
@@ -121,8 +115,7 @@ static double search_end(const Theory *theory, double given, bool low) {
     return low ? (discs ? 0.6 : 0.45) : discs ? 0.74 : 0.57;
 }
 
-static Status search_critical(const Theory *theory, const Measured *measured,
-                              CriticalPoint **point) {
+static Status search_critical(const Theory *theory, CriticalPoint **point) {
     const TheoryPlan *plan = theory->plan;
     size_t species;
     const MixtureAxis axis = theory_search_axis(plan, &species);
@@ -133,7 +126,7 @@ static Status search_critical(const Theory *theory, const Measured *measured,
         .name = axis == MIXTURE_PACKING_FRACTION ? NULL : plan->search_key,
         .mixture = theory->mixture,
         .closure = (Closure)plan->structure,
-        .measured = measured,
+        .measured = theory->measured,
         .count = (size_t)plan->wave_numbers,
         .last = plan->last_wave_number,
         .low = search_end(theory, plan->search_low, true),
@@ -169,10 +162,9 @@ static double value_of(const Theory *theory, double packing_fraction) {
 
 static Status find_critical(Theory *theory, Results *results) {
     const TheoryPlan *plan = theory->plan;
-    TRY(search_critical(theory, theory->measured, &theory->critical));
+    TRY(search_critical(theory, &theory->critical));
     const CriticalPoint *point = theory->critical;
-    TRY(numbers_of(point, &theory->whole));
-    if (theory->groups < 2) TRY(put_numbers(theory, results, &theory->whole, 0));
+    TRY(put_numbers(theory, results));
     TRY(put_value(theory, results));
     TRY(results_put_health(results, "transition_mismatch",
                            "relative difference of two ways to the curvature of what is searched "
@@ -183,36 +175,6 @@ static Status find_critical(Theory *theory, Results *results) {
                   point->form));
     return put_pairs(results, plan, "critical_amplitude", point->wave_number, point->count,
                      point->amplitude);
-}
-
-// ---- Errors of what was measured ----------------------------------------------------------------
-
-static bool wants_errors(const Theory *theory) {
-    return theory->groups > 1 && wants_critical(theory);
-}
-
-// The transition without one group of replicas, as a pseudo-value: their mean and standard error
-// are those of the jackknife (Efron & Tibshirani, An Introduction to the Bootstrap, ch. 11).
-static Status find_pseudo_values(Theory *theory, const Measured *measured, Results *results) {
-    const double groups = (double)theory->groups;
-    CriticalPoint *point = NULL;
-    Numbers numbers;
-    TRY(search_critical(theory, measured, &point));
-    const Status status = numbers_of(point, &numbers);
-    critical_free(point);
-    TRY(status);
-    for (size_t i = 0; i < NUMBERS; i++)
-        numbers.value[i] = groups * theory->whole.value[i] - (groups - 1) * numbers.value[i];
-    return put_numbers(theory, results, &numbers, theory->group);
-}
-
-static Status find_errors(Theory *theory, Results *results) {
-    Measured *measured = NULL;
-    TRY(measurements_fit(&measured, theory->measurements, theory->groups, theory->group));
-    const Status status = find_pseudo_values(theory, measured, results);
-    measured_free(measured);
-    theory->share = (double)++theory->group / (double)theory->groups;
-    return status;
 }
 
 // ---- A state -----------------------------------------------------------------------------------
@@ -535,7 +497,6 @@ static const struct {
     bool slices;
 } steps[] = {
     {"critical point", wants_critical, find_critical, false},
-    {"errors", wants_errors, find_errors, true},
     {"structure", wants_state, solve_structure, false},
     {"form factors", wants_forms, find_forms, false},
     {"beta scaling", wants_beta, solve_beta, false},
@@ -549,37 +510,27 @@ static void skip_unwanted(Theory *theory) {
     while (theory->step < STEPS && !steps[theory->step].wanted(theory)) theory->step++;
 }
 
-// The mixture is then that of the files: fractions of so many particles.
-static Status read_structure(Theory *theory) {
-    const size_t slots = theory_slots(theory->plan);
-    const MeasurementsInput input = theory_input(theory->plan);
-    TRY(measurements_read(&theory->measurements, &input));
-    const size_t replicas = measurements_replicas(theory->measurements);
-    theory->mixture = *measurements_mixture(theory->measurements);
-    theory->groups = slots < replicas ? slots : replicas;
-    return measurements_fit(&theory->measured, theory->measurements, 0, 0);
-}
-
 static Status prepare(Theory *theory) {
     const TheoryPlan *plan = theory->plan;
-    const bool measured = plan->structure == CLOSURE_MEASURED;
     TRY(grid_create(&theory->grid, (int)plan->dimension, (size_t)plan->wave_numbers,
                     plan->last_wave_number));
-    if (measured) TRY(read_structure(theory));
     const double *q = theory->grid->wave_number;
     const size_t count = theory->grid->count;
-    TRY(measured ? oz_create_measured(&theory->oz, theory->measured, q, count)
-                 : oz_create(&theory->oz, (Closure)plan->structure, &theory->mixture, q, count));
+    TRY(theory->measured
+            ? oz_create_measured(&theory->oz, theory->measured, q, count)
+            : oz_create(&theory->oz, (Closure)plan->structure, &theory->mixture, q, count));
     skip_unwanted(theory);
     return OK;
 }
 
-Status theory_create(Theory **out, const TheoryPlan *plan) {
+Status theory_create(Theory **out, const TheoryPlan *plan, const Measured *measured) {
     Theory *theory = NULL;
     *out = NULL;
     TRY(NEW(theory));
     theory->plan = plan;
-    theory->mixture = theory_mixture(plan);
+    theory->measured = measured;
+    // That of the files has the fractions of so many particles.
+    theory->mixture = measured ? *measured_mixture(measured) : theory_mixture(plan);
     const Status status = prepare(theory);
     if (status == OK)
         *out = theory;
@@ -594,14 +545,8 @@ void theory_free(Theory *theory) {
     end_flow(theory);
     critical_free(theory->critical);
     oz_free(theory->oz);
-    measured_free(theory->measured);
-    measurements_free(theory->measurements);
     grid_free(theory->grid);
     memory_free(theory);
-}
-
-uint32_t theory_checksum(const Theory *theory) {
-    return theory->measurements ? measurements_checksum(theory->measurements) : 0;
 }
 
 Status theory_advance(Theory *theory, Results *results) {

@@ -4,8 +4,9 @@
 #pragma once
 
 #include "base/option.h"
-#include "oz/mixture.h"
+#include "oz/measured.h"
 #include "results/results.h"
+#include "theory/measurements.h"
 
 #include <stdbool.h>
 
@@ -71,15 +72,15 @@ Status theory_check(const TheoryPlan *plan); // BAD_DATA with a sentence
 // Likewise, whether files that are read are there and fit; which is told apart by their checksum, 0
 // of a closure.
 Status theory_check_input(const TheoryPlan *plan, uint32_t *checksum);
-size_t theory_slots(const TheoryPlan *plan); // of the Results: more than one hold pseudo-values
+MeasurementsInput theory_input(const TheoryPlan *plan); // of a measured structure
 size_t theory_memory(const TheoryPlan *plan);
 double theory_seconds(const TheoryPlan *plan); // rough
 const char *theory_structure_name(const TheoryPlan *plan);
 
 typedef struct Theory Theory;
-Status theory_create(Theory **out, const TheoryPlan *plan);
+// From the structure that the plan asks for: `measured`, which is borrowed, where it is of files.
+Status theory_create(Theory **out, const TheoryPlan *plan, const Measured *measured);
 void theory_free(Theory *theory);
-uint32_t theory_checksum(const Theory *theory); // of the structure that was read; 0: none
 
 // A slice of the work: mostly below a second. Results are put in as they come.
 Status theory_advance(Theory *theory, Results *results);

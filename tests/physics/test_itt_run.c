@@ -32,7 +32,7 @@ static Results *run(const IttPlan *plan) {
     double before = 0;
     ck_assert_msg(itt_check(plan) == OK, "%s", status_sentence());
     ck_assert_int_eq(results_create(&results, 1), OK);
-    ck_assert_int_eq(itt_create(&itt, plan), OK);
+    ck_assert_int_eq(itt_create(&itt, plan, NULL), OK);
     while (!itt_finished(itt)) {
         ck_assert_msg(itt_advance(itt, results) == OK, "%s", status_sentence());
         ck_assert(itt_progress(itt) >= before);
@@ -143,8 +143,8 @@ START_TEST(a_mixture_goes_on_from_where_it_was_saved) {
     Results *results = NULL, *again = NULL;
     ck_assert_int_eq(results_create(&results, 1), OK);
     ck_assert_int_eq(results_create(&again, 1), OK);
-    ck_assert_int_eq(itt_create(&itt, &plan), OK);
-    ck_assert_int_eq(itt_create(&later, &plan), OK);
+    ck_assert_int_eq(itt_create(&itt, &plan, NULL), OK);
+    ck_assert_int_eq(itt_create(&later, &plan, NULL), OK);
     while (itt_time(itt) < 0.01) ck_assert_int_eq(itt_advance(itt, results), OK);
     Archive saved = archive_writer();
     itt_save(itt, &saved);
@@ -184,7 +184,7 @@ START_TEST(a_separation_is_counted_from_the_transition) {
     Itt *itt = NULL;
     Results *results = NULL;
     ck_assert_int_eq(results_create(&results, 1), OK);
-    ck_assert_int_eq(itt_create(&itt, &plan), OK);
+    ck_assert_int_eq(itt_create(&itt, &plan, NULL), OK);
     while (!results_find_scalar(results, "theory", "packing_fraction"))
         ck_assert_int_eq(itt_advance(itt, results), OK);
     ck_assert_double_eq_tol(number(results, "critical_packing_fraction"), 0.69064, 1e-4);
@@ -206,7 +206,7 @@ START_TEST(the_transition_is_that_of_the_plane_s_cutoff) {
     Itt *itt = NULL;
     Results *results = NULL;
     ck_assert_int_eq(results_create(&results, 1), OK);
-    ck_assert_int_eq(itt_create(&itt, &plan), OK);
+    ck_assert_int_eq(itt_create(&itt, &plan, NULL), OK);
     ck_assert_msg(itt_advance(itt, results) == OK, "%s", status_sentence());
     ck_assert_double_eq_tol(number(results, "critical_packing_fraction"), known[_i][1], 2e-4);
     itt_free(itt);

@@ -4,12 +4,12 @@
 // themselves are refused.
 #include "suite.h"
 
-#include "itt/itt.h"
+#include "base/archive.h"
 #include "mct/critical.h"
 #include "numerics/small.h"
 #include "oz/oz.h"
+#include "protocol/calculation.h"
 #include "store/store.h"
-#include "theory/theory.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
@@ -205,9 +205,10 @@ END_TEST
 
 // ---- Files --------------------------------------------------------------------------------------
 
-// As a run at rest writes it.
-static void write_run(const Samples *samples, size_t state, const char *diameters,
-                      const char *directory) {
+enum { NONE = REPLICAS };
+
+// As a run at rest writes it that has not had the replica `omitted`.
+static void write_run(const Samples *samples, size_t state, size_t omitted, const char *directory) {
     static const char *const pairs[] = {"disc-disc", "total"};
     char mixture[256];
     double values[2 * SHELLS];
@@ -216,19 +217,45 @@ static void write_run(const Samples *samples, size_t state, const char *diameter
     ResultSeries shape = {.stage = "fluid", .observable = "structure_factor", .axes = 2};
     shape.axis[0] = (ResultAxis){"pair", "", 2, NULL, pairs};
     shape.axis[1] = (ResultAxis){"wave_number", "1/d", SHELLS, samples->wave_number, NULL};
-    ck_assert_int_eq(results_create(&results, REPLICAS), OK);
-    for (size_t r = 0; r < REPLICAS; r++) {
+    ck_assert_int_eq(results_create(&results, omitted == NONE ? REPLICAS : REPLICAS - 1), OK);
+    for (size_t r = 0, slot = 0; r < REPLICAS; r++) {
+        if (r == omitted) continue;
         memcpy(values, samples->factor[state] + r * SHELLS, SHELLS * sizeof *values);
         memcpy(values + SHELLS, values, SHELLS * sizeof *values);
-        ck_assert_int_eq(results_put_series(results, &shape, r, values), OK);
+        ck_assert_int_eq(results_put_series(results, &shape, slot++, values), OK);
     }
-    snprintf(mixture, sizeof mixture, "dimension=2 packing_fraction=%.17g diameters=%s fractions=1",
-             DENSITIES[state], diameters);
+    snprintf(mixture, sizeof mixture, "dimension=2 packing_fraction=%.17g diameters=1 fractions=1",
+             DENSITIES[state]);
     ck_assert_int_eq(results_put_fact(results, "mixture", mixture), OK);
     ck_assert_msg(store_open(&store, directory) == OK, "%s", status_sentence());
     ck_assert_int_eq(store_write_results(store, results), OK);
     store_close(store);
     results_free(results);
+}
+
+static void write_folder(const Samples *samples, size_t omitted, const char *folder) {
+    char path[64];
+    snprintf(path, sizeof path, "rm -rf %s && mkdir %s", folder, folder);
+    ck_assert_int_eq(system(path), 0);
+    for (size_t n = 0; n < STATES; n++) {
+        snprintf(path, sizeof path, "%s/%zu", folder, n);
+        write_run(samples, n, omitted, path);
+    }
+}
+
+static void finish(Calculation *calculation, Results *results) {
+    while (!calculation_finished(calculation))
+        ck_assert_msg(calculation_advance(calculation, results) == OK, "%s", status_sentence());
+}
+
+static Results *results_of(const Plan *plan) {
+    Calculation *calculation = NULL;
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, plan_slots(plan)), OK);
+    ck_assert_msg(calculation_create(&calculation, plan) == OK, "%s", status_sentence());
+    finish(calculation, results);
+    calculation_free(calculation);
+    return results;
 }
 
 static TheoryPlan plan_from(const char *path) {
@@ -249,20 +276,10 @@ START_TEST(a_folder_of_runs_gives_the_transition_with_its_error) {
     uint32_t checksum;
     static const char folder[] = "measured_runs";
     Samples *samples = sampled(CLOSURE_FUNDAMENTAL, &DISCS, 500);
-    char path[64];
-    Theory *theory = NULL;
-    Results *results = NULL;
-    ck_assert_int_eq(system("rm -rf measured_runs && mkdir measured_runs"), 0);
-    for (size_t n = 0; n < STATES; n++) {
-        snprintf(path, sizeof path, "%s/%zu", folder, n);
-        write_run(samples, n, "1", path);
-    }
+    write_folder(samples, NONE, folder);
     const TheoryPlan plan = plan_from(folder);
     ck_assert_msg(theory_check_input(&plan, &checksum) == OK, "%s", status_sentence());
-    ck_assert_int_eq(results_create(&results, theory_slots(&plan)), OK);
-    ck_assert_int_eq(theory_create(&theory, &plan), OK);
-    while (!theory_finished(theory))
-        ck_assert_msg(theory_advance(theory, results) == OK, "%s", status_sentence());
+    Results *results = results_of(&(Plan){.theory = plan});
     const Estimate found = results_scalar_estimate(
         results, results_find_scalar(results, "theory", "critical_packing_fraction"));
     ck_assert_uint_eq(found.n, REPLICAS);
@@ -280,8 +297,88 @@ START_TEST(a_folder_of_runs_gives_the_transition_with_its_error) {
     snprintf(other.input.stage, sizeof other.input.stage, "flow");
     ck_assert_int_eq(theory_check_input(&other, &checksum), BAD_DATA);
     ck_assert_msg(strstr(status_sentence(), "stage flow"), "%s", status_sentence());
-    theory_free(theory);
     results_free(results);
+    free(samples);
+}
+END_TEST
+
+// ---- Errors -------------------------------------------------------------------------------------
+
+// Of a run that had not had this replica, without errors.
+static Results *results_without(Plan plan, const Samples *samples, size_t omitted) {
+    write_folder(samples, omitted, "measured_without");
+    TheoryInput *input = plan.itt.given ? &plan.itt.input : &plan.theory.input;
+    snprintf(input->file, sizeof input->file, "measured_without");
+    input->groups = 1;
+    return results_of(&plan);
+}
+
+// Mean and error by the textbook's formulas for the number or element, of all files and of files
+// that lack a replica each.
+static void expect_jackknife(double whole, const double without[REPLICAS], Estimate found) {
+    double mean = 0, squares = 0;
+    for (size_t r = 0; r < REPLICAS; r++) mean += without[r] / REPLICAS;
+    for (size_t r = 0; r < REPLICAS; r++) squares += pow(without[r] - mean, 2);
+    const double error = sqrt((REPLICAS - 1.0) / REPLICAS * squares);
+    const double scale = fabs(whole) + REPLICAS * error;
+    ck_assert_double_eq_tol(found.value, REPLICAS * whole - (REPLICAS - 1) * mean, 1e-8 * scale);
+    if (error > 1e-12 * scale) ck_assert_double_eq_tol(found.error, error, 1e-6 * error);
+}
+
+static void expect_jackknives(const Results *found, const Results *whole,
+                              Results *const without[REPLICAS], const char *name) {
+    const ResultSeries *series = results_find_series(found, "theory", name);
+    const ResultSeries *all = results_find_series(whole, "theory", name);
+    ck_assert_msg(series && all && series->size == all->size, "%s", name);
+    for (size_t i = 0; i < all->size; i++) {
+        double values[REPLICAS];
+        for (size_t r = 0; r < REPLICAS; r++)
+            values[r] = results_find_series(without[r], "theory", name)->values[i];
+        expect_jackknife(all->values[i], values, results_series_estimate(found, series, i));
+    }
+}
+
+// A glass and its correlators, from phi_c on: all that hangs on the structure, and how.
+START_TEST(errors_of_curves_are_those_of_runs_that_lack_a_replica) {
+    static const char *const curves[] = {
+        "critical_form_factors",     "structure_factor",
+        "direct_correlation",        "glass_form_factors",
+        "self_form_factors",         "collective_scattering",
+        "self_scattering",           "alpha_master",
+        "mean_squared_displacement", "collective_scattering_normalised"};
+    static const char *const numbers[] = {"critical_packing_fraction", "exponent_parameter",
+                                          "packing_fraction", "separation_parameter",
+                                          "localisation_length"};
+    Samples *samples = sampled(CLOSURE_FUNDAMENTAL, &DISCS, 500);
+    write_folder(samples, NONE, "measured_all");
+    Plan plan = {.theory = plan_from("measured_all")};
+    plan.theory.separation = 0.01;
+    plan.theory.calculate = 1u << THEORY_EXPONENTS | 1u << THEORY_STRUCTURE | 1u << THEORY_FORMS |
+                            1u << THEORY_CORRELATORS | 1u << THEORY_MASTER;
+    plan.theory.correlator_wave_numbers = (OptionReals){.count = 1, .values = {6}};
+    plan.theory.first_time = 1e-3;
+    plan.theory.last_time = 1e3;
+    plan.theory.times_per_decade = 4;
+    Results *found = results_of(&plan), *without[REPLICAS];
+    for (size_t r = 0; r < REPLICAS; r++) without[r] = results_without(plan, samples, r);
+    Results *whole = results_without(plan, samples, NONE);
+    for (size_t i = 0; i < sizeof curves / sizeof *curves; i++)
+        expect_jackknives(found, whole, without, curves[i]);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        double values[REPLICAS];
+        for (size_t r = 0; r < REPLICAS; r++)
+            values[r] = results_find_scalar(without[r], "theory", numbers[i])->values[0];
+        expect_jackknife(
+            results_find_scalar(whole, "theory", numbers[i])->values[0], values,
+            results_scalar_estimate(found, results_find_scalar(found, "theory", numbers[i])));
+    }
+    const Estimate glass =
+        results_scalar_estimate(found, results_find_scalar(found, "theory", "is_glass"));
+    ck_assert_double_eq(glass.value, 1);
+    ck_assert_uint_eq(glass.n, 1);
+    for (size_t r = 0; r < REPLICAS; r++) results_free(without[r]);
+    results_free(whole);
+    results_free(found);
     free(samples);
 }
 END_TEST
@@ -289,15 +386,11 @@ END_TEST
 // ---- Under shear --------------------------------------------------------------------------------
 
 static double stress_of(const IttPlan *plan) {
-    Itt *itt = NULL;
-    Results *results = NULL;
     ck_assert_msg(itt_check(plan) == OK, "%s", status_sentence());
-    ck_assert_int_eq(results_create(&results, 1), OK);
-    ck_assert_msg(itt_create(&itt, plan) == OK, "%s", status_sentence());
-    while (!itt_finished(itt))
-        ck_assert_msg(itt_advance(itt, results) == OK, "%s", status_sentence());
-    const double stress = results_find_scalar(results, "theory", "shear_stress")->values[0];
-    itt_free(itt);
+    Results *results = results_of(&(Plan){.itt = *plan});
+    const double stress =
+        results_scalar_estimate(results, results_find_scalar(results, "theory", "shear_stress"))
+            .value;
     results_free(results);
     return stress;
 }
@@ -308,15 +401,11 @@ START_TEST(discs_under_shear_may_have_a_measured_structure) {
     uint32_t checksum;
     static const char folder[] = "measured_flows";
     Samples *samples = sampled(CLOSURE_FUNDAMENTAL, &DISCS, 500);
-    char path[64];
-    ck_assert_int_eq(system("rm -rf measured_flows && mkdir measured_flows"), 0);
-    for (size_t n = 0; n < STATES; n++) {
-        snprintf(path, sizeof path, "%s/%zu", folder, n);
-        write_run(samples, n, "1", path);
-    }
+    write_folder(samples, NONE, folder);
     IttPlan plan = {.given = true,
                     .structure = CLOSURE_FUNDAMENTAL,
                     .packing_fraction = DENSITIES[1],
+                    .input = {.groups = 1},
                     .spacing = 0.8,
                     .last_wave_number = 16,
                     .shear_rate = 1,
@@ -328,16 +417,75 @@ START_TEST(discs_under_shear_may_have_a_measured_structure) {
     below.packing_fraction *= 1 - 1e-3;
     above.packing_fraction *= 1 + 1e-3;
     const double least = stress_of(&below), most = stress_of(&above);
-    snprintf(plan.file, sizeof plan.file, "%s", folder);
+    snprintf(plan.input.file, sizeof plan.input.file, "%s", folder);
     itt_complete(&plan);
     ck_assert_msg(itt_check_input(&plan, &checksum) == OK, "%s", status_sentence());
     const double stress = stress_of(&plan);
     ck_assert(stress > least && stress < most);
-    snprintf(plan.file, sizeof plan.file, "%s/0",
+    snprintf(plan.input.file, sizeof plan.input.file, "%s/0",
              folder); // one state: no transition to be far from
     plan.packing_fraction = 0;
     plan.separation = 0.01;
     ck_assert_int_eq(itt_check_input(&plan, &checksum), BAD_DATA);
+    free(samples);
+}
+END_TEST
+
+// With its errors, and stopped and gone on from in the middle of the third pass.
+START_TEST(a_flow_without_some_replicas_goes_on_from_where_it_was_saved) {
+    Samples *samples = sampled(CLOSURE_FUNDAMENTAL, &DISCS, 500);
+    write_folder(samples, NONE, "measured_flow");
+    Plan plan = {.itt = {.given = true,
+                         .input = {.file = "measured_flow", .groups = REPLICAS},
+                         .packing_fraction = DENSITIES[1],
+                         .spacing = 0.8,
+                         .last_wave_number = 16,
+                         .shear_rate = 1,
+                         .last_strain = 6,
+                         .block = 32,
+                         .first_time = 1e-3,
+                         .times_per_decade = 5}};
+    itt_complete(&plan.itt);
+    Calculation *calculation = NULL, *later = NULL;
+    Results *results = NULL, *again = NULL, *without[REPLICAS];
+    ck_assert_int_eq(results_create(&results, plan_slots(&plan)), OK);
+    ck_assert_int_eq(results_create(&again, plan_slots(&plan)), OK);
+    ck_assert_int_eq(calculation_create(&calculation, &plan), OK);
+    ck_assert_int_eq(calculation_create(&later, &plan), OK);
+    while (calculation_progress(calculation) < 2.6 / (REPLICAS + 1))
+        ck_assert_int_eq(calculation_advance(calculation, results), OK);
+    Archive saved = archive_writer();
+    calculation_save(calculation, &saved);
+    Archive loaded = archive_reader(saved.bytes, saved.size);
+    ck_assert_msg(calculation_load(later, again, &loaded) == OK, "%s", status_sentence());
+    finish(calculation, results);
+    finish(later, again);
+    archive_free(&saved);
+    calculation_free(calculation);
+    calculation_free(later);
+
+    const ResultScalar *stress = results_find_scalar(results, "theory", "shear_stress");
+    const ResultSeries *f =
+        results_find_series(results, "theory", "advected_scattering_normalised");
+    ck_assert_mem_eq(stress->values, results_find_scalar(again, "theory", "shear_stress")->values,
+                     REPLICAS * sizeof(double));
+    ck_assert_mem_eq(f->values,
+                     results_find_series(again, "theory", "advected_scattering_normalised")->values,
+                     REPLICAS * f->size * sizeof(double));
+    // No wave number was asked for: all passes have that of the peak of the first.
+    ck_assert_uint_eq(results_series_estimate(results, f, f->size / 2).n, REPLICAS);
+    double values[REPLICAS];
+    for (size_t r = 0; r < REPLICAS; r++) {
+        without[r] = results_without(plan, samples, r);
+        values[r] = results_find_scalar(without[r], "theory", "shear_stress")->values[0];
+        results_free(without[r]);
+    }
+    Results *whole = results_without(plan, samples, NONE);
+    expect_jackknife(results_find_scalar(whole, "theory", "shear_stress")->values[0], values,
+                     results_scalar_estimate(results, stress));
+    results_free(whole);
+    results_free(results);
+    results_free(again);
     free(samples);
 }
 END_TEST
@@ -352,6 +500,8 @@ int main(void) {
     tcase_add_test(tests, what_was_not_measured_follows);
     tcase_add_test(tests, what_cannot_be_is_refused);
     tcase_add_test(tests, a_folder_of_runs_gives_the_transition_with_its_error);
+    tcase_add_test(tests, errors_of_curves_are_those_of_runs_that_lack_a_replica);
+    tcase_add_test(tests, a_flow_without_some_replicas_goes_on_from_where_it_was_saved);
     tcase_add_test(tests, discs_under_shear_may_have_a_measured_structure);
     suite_add_tcase(suite, tests);
     return run_suite(suite);

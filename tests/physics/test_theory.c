@@ -32,7 +32,7 @@ static Results *run(const TheoryPlan *plan) {
     Results *results = NULL;
     ck_assert_msg(theory_check(plan) == OK, "%s", status_sentence());
     ck_assert_int_eq(results_create(&results, 1), OK);
-    ck_assert_msg(theory_create(&theory, plan) == OK, "%s", status_sentence());
+    ck_assert_msg(theory_create(&theory, plan, NULL) == OK, "%s", status_sentence());
     double before = -1;
     while (!theory_finished(theory)) {
         ck_assert_msg(theory_advance(theory, results) == OK, "%s", status_sentence());

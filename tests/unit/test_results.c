@@ -162,6 +162,95 @@ START_TEST(what_is_above_its_limit_or_no_number_is_not_healthy) {
 }
 END_TEST
 
+// ---- Jackknife ----------------------------------------------------------------------------------
+
+enum { GROUPS = 4 };
+
+// Of all four values and without each of them: their mean, and a curve of it over these axes.
+static Results *mean_without(size_t omitted, const ResultAxis *axis) {
+    static const double values[GROUPS] = {1, 2.5, 3, 4.25};
+    Results *results = new_results(1);
+    double sum = 0;
+    size_t count = 0;
+    for (size_t g = 0; g < GROUPS; g++) {
+        if (g == omitted) continue;
+        sum += values[g];
+        count++;
+    }
+    const double mean = sum / (double)count, curve[2] = {mean, -mean};
+    const ResultSeries shape = {.stage = "s", .observable = "curve", .axes = 1, .axis = {*axis}};
+    ck_assert_int_eq(results_put_scalar(results, "s", "mean", "kT", "about", 0, mean), OK);
+    ck_assert_int_eq(results_put_scalar(results, "s", "set", "", "", 0, 0.7), OK);
+    ck_assert_int_eq(results_put_scalar(results, "s", "flag", "", "", 0, omitted == 1), OK);
+    ck_assert_int_eq(results_put_series(results, &shape, 0, curve), OK);
+    ck_assert_int_eq(results_put_health(results, "depth", "", 1, mean), OK);
+    return results;
+}
+
+static Results *jackknife(Results *passes[1 + GROUPS]) {
+    Results *results = new_results(GROUPS + 1); // more room than groups
+    ck_assert_int_eq(results_jackknife(results, passes, GROUPS), OK);
+    for (size_t p = 0; p <= GROUPS; p++) results_free(passes[p]);
+    return results;
+}
+
+static Estimate scalar(const Results *results, const char *name) {
+    return results_scalar_estimate(results, results_find_scalar(results, "s", name));
+}
+
+static Estimate element(const Results *results, size_t i) {
+    return results_series_estimate(results, results_find_series(results, "s", "curve"), i);
+}
+
+START_TEST(the_jackknife_of_a_mean_is_the_error_of_the_mean) {
+    const ResultAxis axis = {"time", "", 2, (const double[]){1, 2}, NULL};
+    const double mean = 2.6875,
+                 error =
+                     sqrt((1.6875 * 1.6875 + 0.1875 * 0.1875 + 0.3125 * 0.3125 + 1.5625 * 1.5625) /
+                          (GROUPS * (GROUPS - 1)));
+    Results *passes[1 + GROUPS];
+    passes[0] = mean_without(GROUPS, &axis);
+    for (size_t g = 0; g < GROUPS; g++) passes[g + 1] = mean_without(g, &axis);
+    Results *results = jackknife(passes);
+    ck_assert_double_eq_tol(scalar(results, "mean").value, mean, 1e-14);
+    ck_assert_double_eq_tol(scalar(results, "mean").error, error, 1e-14);
+    ck_assert_uint_eq(scalar(results, "mean").n, GROUPS);
+    ck_assert_str_eq(results_find_scalar(results, "s", "mean")->unit, "kT");
+    ck_assert_double_eq_tol(element(results, 1).value, -mean, 1e-14);
+    ck_assert_double_eq_tol(element(results, 1).error, error, 1e-14);
+    // A number that is set has none, and a flag is that of all, not a mean.
+    ck_assert_double_eq(scalar(results, "set").value, 0.7);
+    ck_assert_uint_eq(scalar(results, "set").n, 1);
+    ck_assert_double_eq(scalar(results, "flag").value, 0);
+    ck_assert_uint_eq(scalar(results, "flag").n, 1);
+    ck_assert_double_eq(results->health[0].value, mean);
+    results_free(results);
+}
+END_TEST
+
+START_TEST(what_not_all_passes_have_has_no_error) {
+    const ResultAxis axis = {"time", "", 2, (const double[]){1, 2}, NULL};
+    const ResultAxis other = {"time", "", 2, (const double[]){1, 3}, NULL};
+    const double alone[2] = {NAN, INFINITY};
+    Results *passes[1 + GROUPS];
+    passes[0] = mean_without(GROUPS, &axis);
+    ck_assert_int_eq(results_put_scalar(passes[0], "s", "alone", "", "", 0, 0.3), OK);
+    for (size_t g = 0; g < GROUPS; g++) {
+        passes[g + 1] = mean_without(g, g == 2 ? &other : &axis);
+        ck_assert_int_eq(results_put_scalar(passes[g + 1], "s", "mean", "kT", "about", 0,
+                                            g < 2 ? alone[g] : 0.5),
+                         OK);
+    }
+    Results *results = jackknife(passes);
+    ck_assert_double_eq(scalar(results, "alone").value, 0.3);
+    ck_assert_double_eq(scalar(results, "mean").value, 2.6875);
+    ck_assert_double_eq(element(results, 0).value, 2.6875);
+    ck_assert(isnan(scalar(results, "alone").error) && isnan(scalar(results, "mean").error));
+    ck_assert(isnan(element(results, 0).error));
+    results_free(results);
+}
+END_TEST
+
 int main(void) {
     TCase *tests = tcase_create("results");
     tcase_add_test(tests, error_is_deviation_over_root_n);
@@ -172,6 +261,8 @@ int main(void) {
     tcase_add_test(tests, other_axes_under_the_same_name_are_refused);
     tcase_add_test(tests, names_that_would_be_paths_or_too_long_are_refused);
     tcase_add_test(tests, facts_and_health_are_replaced_by_name);
+    tcase_add_test(tests, the_jackknife_of_a_mean_is_the_error_of_the_mean);
+    tcase_add_test(tests, what_not_all_passes_have_has_no_error);
     tcase_add_test(tests, what_is_above_its_limit_or_no_number_is_not_healthy);
     Suite *suite = suite_create("results");
     suite_add_tcase(suite, tests);
