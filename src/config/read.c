@@ -339,6 +339,7 @@ static Status read_theory(const Node *map, Plan *plan) {
     const Node *species = tree_find(map, "species");
     Faults faults = {0};
     TRY(options_default(&theory_options, theory));
+    TRY(options_default(&output_options, &plan->output)); // how often there is a checkpoint
     TRY(faults_keep(&faults, read_section("theory", &theory_options, theory, others, map, true)));
     if (faults.count == 0) TRY(faults_keep(&faults, check_there(map, "species", SPECIES_ARE)));
     if (species)

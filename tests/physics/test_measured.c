@@ -383,6 +383,40 @@ START_TEST(errors_of_curves_are_those_of_runs_that_lack_a_replica) {
 }
 END_TEST
 
+START_TEST(passes_that_are_done_need_not_be_done_again) {
+    Samples *samples = sampled(CLOSURE_FUNDAMENTAL, &DISCS, 500);
+    write_folder(samples, NONE, "measured_passes");
+    Plan plan = {.theory = plan_from("measured_passes")};
+    plan.theory.packing_fraction = DENSITIES[1];
+    plan.theory.calculate = 1u << THEORY_STRUCTURE;
+    Calculation *calculation = NULL, *later = NULL;
+    Results *results = NULL, *again = NULL;
+    ck_assert_int_eq(results_create(&results, plan_slots(&plan)), OK);
+    ck_assert_int_eq(results_create(&again, plan_slots(&plan)), OK);
+    ck_assert_int_eq(calculation_create(&calculation, &plan), OK);
+    ck_assert_int_eq(calculation_create(&later, &plan), OK);
+    ck_assert(!calculation_can_save(calculation));
+    while (calculation_progress(calculation) < 2.0 / (REPLICAS + 1))
+        ck_assert_int_eq(calculation_advance(calculation, results), OK);
+    Archive saved = archive_writer();
+    calculation_save(calculation, &saved);
+    Archive loaded = archive_reader(saved.bytes, saved.size);
+    ck_assert_msg(calculation_load(later, again, &loaded) == OK, "%s", status_sentence());
+    ck_assert_double_ge(calculation_progress(later), 2.0 / (REPLICAS + 1));
+    finish(calculation, results);
+    finish(later, again);
+    const ResultSeries *s = results_find_series(results, "theory", "structure_factor");
+    ck_assert_mem_eq(s->values, results_find_series(again, "theory", "structure_factor")->values,
+                     REPLICAS * s->size * sizeof(double));
+    archive_free(&saved);
+    calculation_free(calculation);
+    calculation_free(later);
+    results_free(results);
+    results_free(again);
+    free(samples);
+}
+END_TEST
+
 // ---- Under shear --------------------------------------------------------------------------------
 
 static double stress_of(const IttPlan *plan) {
@@ -501,6 +535,7 @@ int main(void) {
     tcase_add_test(tests, what_cannot_be_is_refused);
     tcase_add_test(tests, a_folder_of_runs_gives_the_transition_with_its_error);
     tcase_add_test(tests, errors_of_curves_are_those_of_runs_that_lack_a_replica);
+    tcase_add_test(tests, passes_that_are_done_need_not_be_done_again);
     tcase_add_test(tests, a_flow_without_some_replicas_goes_on_from_where_it_was_saved);
     tcase_add_test(tests, discs_under_shear_may_have_a_measured_structure);
     suite_add_tcase(suite, tests);
