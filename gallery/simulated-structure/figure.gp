@@ -1,6 +1,6 @@
 # The structure that was simulated and what the theory makes of it; correlators of the theory (lines,
-# in bands of one standard error) over those of the simulation (points) at equal relative distances
-# from their own transitions.
+# in bands of three standard errors: one is as narrow as they) over those of the simulation (points)
+# at equal relative distances from their own transitions.
 load "style.gp"
 set terminal svg size 1100,1750
 set style fill transparent solid 0.3 noborder
@@ -32,14 +32,15 @@ do for [pair in "c ss sb bb"] {
         if (pair eq "c") { set key top right } else { unset key }
         at = pair."_".q.".csv"
         plot "0.76-".at using 1:2:3 with yerrorbars linetype 1 title "0.76, ε = -0.044", \
-             "theory_0.76-".at using 1:($2 - $3):($2 + $3) with filledcurves linetype 1 notitle, \
+             "theory_0.76-".at using 1:($2 - 3 * $3):($2 + 3 * $3) with filledcurves linetype 1 notitle, \
              "theory_0.76-".at using 1:2 with lines linetype 1 notitle, \
              "0.78-".at using 1:2:3 with yerrorbars linetype 2 title "0.78, ε = -0.019", \
-             "theory_0.78-".at using 1:($2 - $3):($2 + $3) with filledcurves linetype 2 notitle, \
+             "theory_0.78-".at using 1:($2 - 3 * $3):($2 + 3 * $3) with filledcurves linetype 2 notitle, \
              "theory_0.78-".at using 1:2 with lines linetype 2 notitle, \
              "0.79-".at using 1:2:3 with yerrorbars linetype 3 title "0.79, ε = -0.006", \
-             "theory_0.79-".at using 1:($2 - $3):($2 + $3) with filledcurves linetype 3 notitle, \
-             "theory_0.79-".at using 1:2 with lines linetype 3 notitle
+             "theory_0.79-".at using 1:($2 - 3 * $3):($2 + 3 * $3) with filledcurves linetype 3 notitle, \
+             "theory_0.79-".at using 1:2 with lines linetype 3 notitle, \
+             NaN with lines linetype 5 title "theory, within 3 errors"
     }
 }
 unset multiplot
