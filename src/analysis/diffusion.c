@@ -28,6 +28,10 @@ typedef struct Displacement {
     char suffix[RESULT_NAME]; // of the names of its numbers: "_parallel_rod"
 } Displacement;
 
+static const ResultAxis *time_of(const ResultSeries *series) {
+    return &series->axis[series->axes - 1];
+}
+
 static size_t fastest_lag(const Curve *curve) {
     size_t best = 0;
     for (size_t k = 1; k < curve->lags; k++) {
@@ -64,14 +68,14 @@ static Status put_long(Results *results, const Displacement *of, const char *uni
     for (size_t replica = 0; replica < results->replicas; replica++) {
         TRY(put(results, of, "long_time_diffusion", unit, settled ? NULL : FALLING, replica,
                 curve_slope(curve, replica, begin, curve->lags) / (2 * of->dimensions)));
-        TRY(put(results, of, "long_time_window", curve->series->axis[2].unit, NULL, replica,
+        TRY(put(results, of, "long_time_window", time_of(curve->series)->unit, NULL, replica,
                 curve->times[begin]));
     }
     return OK;
 }
 
 static bool is_brownian(const ResultSeries *series) {
-    return strcmp(series->axis[2].unit, "d^2/D0") == 0;
+    return strcmp(time_of(series)->unit, "d^2/D0") == 0;
 }
 
 static Status derive_from(Results *results, const Displacement *of, bool short_too) {
@@ -94,17 +98,21 @@ static void name_curve(Displacement *of, const ResultSeries *series, size_t spec
 // Of those directions that it is asked for.
 typedef bool IsWanted(const Results *results, const char *stage, const char *direction);
 
+// Of several waiting times or strains the last, which is nearest to what is stationary.
 static Status derive_directions(Results *results, const ResultSeries *series, IsWanted *wanted,
                                 bool short_too) {
     const size_t species = series->axis[0].count, directions = series->axis[1].count;
-    if (series->axis[2].count < CURVE_LAGS_LEAST) return OK;
+    const size_t waits = series->axes > 3 ? series->axis[2].count : 1;
+    if (time_of(series)->count < CURVE_LAGS_LEAST) return OK;
     double *weights = NULL;
-    TRY(curve_weights(&weights, &series->axis[2]));
+    TRY(curve_weights(&weights, time_of(series)));
     Status status = OK;
     for (size_t row = 0; status == OK && row < species * directions; row++) {
         const char *direction = series->axis[1].labels[row % directions];
         if (!wanted(results, series->stage, direction)) continue;
-        Displacement of = {.curve = curve_in(results, series, row, weights), .dimensions = 1};
+        const size_t last = (row + 1) * waits - 1;
+        Displacement of = {.curve = curve_in(results, series, last, weights), .dimensions = 1};
+        if (waits > 1 && isnan(curve_mean(&of.curve, 0))) continue; // the stage ended before
         name_curve(&of, series, row / directions, direction);
         status = derive_from(results, &of, short_too);
     }

@@ -255,7 +255,7 @@ static Status put_angles(const ContactStress *self, const State *state, double *
         .unit = "",
         .axes = 3,
         .axis = {{.name = "pair", .unit = "", .count = labels.count, .labels = labels.names},
-                 {.name = "angle", .unit = "", .count = self->angles, .values = angles},
+                 {.name = "angle", .unit = "rad", .count = self->angles, .values = angles},
                  {.name = "scaled_distance", .unit = "", .count = self->bins, .values = centres}}};
     return observer_put_series(&self->observer, "contact_directions", &shape, results, replica,
                                values);

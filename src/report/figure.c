@@ -12,6 +12,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#define TRANSIENTS                                                                                 \
+    "At waiting strain 0 the function from the start of shear as measured; at others what "        \
+    "follows "                                                                                     \
+    "for it from that after the waiting strain and that at rest (integration through "             \
+    "transients), "                                                                                \
+    "without a parameter: one curve where the waiting strain is small."
+
 // Becomes: {.observable = "mean_squared_displacement", ...}, ...
 static const FigureKind kinds[] = {
 #define FIGURE(...) {__VA_ARGS__},
@@ -229,6 +236,24 @@ static void choose_curves(Figure *figure) {
     figure->left_out = all - most;
 }
 
+// What a logarithmic axis shows of a curve: where it ends below zero, its negative.
+static bool ends_below_zero(const Figure *figure, size_t curve) {
+    for (size_t point = figure->x->count; point-- > 0;) {
+        const size_t element = figure->curve[curve].first + point * figure->stride;
+        const double value =
+            results_series_estimate(figure->results, figure->series, element).value;
+        if (isfinite(value)) return value < 0;
+    }
+    return false;
+}
+
+static void choose_signs(Figure *figure) {
+    const bool positive = !figure->kind || !figure->kind->log_y || figure->line;
+    for (size_t c = 0; !positive && c < figure->curve_count; c++) {
+        figure->curve[c].negative = ends_below_zero(figure, c);
+    }
+}
+
 // Of several pictures one is drawn: that at the last numbers, such as the strongest force of a
 // sweep, of the first labels.
 static bool is_furthest(const Figure *figure, const size_t index[RESULT_AXES]) {
@@ -292,6 +317,7 @@ Figure figure_of(const Results *results, const ResultSeries *series) {
     }
     name_files(figure.name, series);
     choose_curves(&figure);
+    choose_signs(&figure);
     if (figure.y) choose_picture(&figure);
     return figure;
 }

@@ -58,6 +58,7 @@ enum { FIGURE_CURVES = 8, FIGURE_NAME = 2 * RESULT_NAME };
 typedef struct Curve {
     size_t first; // element at the beginning of the x axis
     char title[3 * RESULT_NAME];
+    bool negative; // drawn with its sign turned, of which its name tells
 } Curve;
 
 typedef struct Figure {

@@ -15,6 +15,8 @@ static const int MARKS[PALETTE_SIZE] = {7, 5, 9, 11, 13, 6, 4, 8}; // gnuplot's 
 
 enum { VALUE_SIZE = 128 };
 
+#define MINUS "minus " // before the name of a curve with its sign turned
+
 #define REFERENCE "dashtype (6,4) linewidth 1.6 linecolor rgb '#333333'"
 
 // Columns of the numbers: x, then for each curve its value, its error and, if any, its line and its
@@ -91,13 +93,15 @@ static size_t panels_height(const Figure *figure) {
 typedef struct Legend {
     bool below;
     size_t columns, height; // in pixels
+    size_t narrower;        // columns, in letters of gnuplot's, which are wider than those drawn
 } Legend;
 
 static Legend legend_of(const Figure *figure) {
     enum { KEY_MOST = 4, WIDTH = 700, LETTER = 8, SAMPLE = 70, ROW = 26 };
     size_t longest = 1, names = figure->curve_count;
     for (size_t c = 0; c < figure->curve_count; c++) {
-        const size_t letters = utf8_letters(figure->curve[c].title);
+        const size_t sign = figure->curve[c].negative ? sizeof MINUS - 1 : 0;
+        const size_t letters = sign + utf8_letters(figure->curve[c].title);
         if (letters > longest) longest = letters;
     }
     for (size_t k = 0; k < FIGURE_LIMITS; k++) {
@@ -106,7 +110,7 @@ static Legend legend_of(const Figure *figure) {
     const size_t fit = WIDTH / (longest * LETTER + SAMPLE), columns = fit > 1 ? fit : 1;
     const size_t rows = (names + columns) / columns; // and one for what lies beside
     const bool below = names > KEY_MOST;
-    return (Legend){below, columns, below ? rows * ROW : 0};
+    return (Legend){below, columns, below ? rows * ROW : 0, longest / 4};
 }
 
 static void put_key(Text *script, const Figure *figure) {
@@ -121,7 +125,8 @@ static void put_key(Text *script, const Figure *figure) {
                  (double)legend.height / (double)(RATIO_HEIGHT + legend.height));
     else
         text_put(script, "set key below height 1");
-    text_add(script, " maxcols %zu font ',14' noenhanced samplen 2 spacing 1.2\n", legend.columns);
+    text_add(script, " maxcols %zu width -%zu font ',14' noenhanced samplen 2 spacing 1.2\n",
+             legend.columns, legend.narrower);
 }
 
 static void put_head(Text *script, const Figure *figure) {
@@ -144,7 +149,7 @@ static void put_head(Text *script, const Figure *figure) {
 
 // Without a row of its own, an axis is logarithmic if its points spread out along it.
 static bool is_log_x(const Figure *figure) {
-    static const double SPREADS = 10; // last gap over first gap
+    static const double SPREADS = 9; // last gap over first gap: a point per decade makes it 10
     if (figure->kind) return figure->kind->log_x;
     const double *x = figure->x->values;
     const size_t last = figure->x->count - 1;
@@ -226,25 +231,30 @@ static const char *title_of(const Figure *figure, size_t curve) {
     return figure_is_theory(figure) ? "theory" : "simulation";
 }
 
-// Noise would set the scale of the axis if all points were drawn.
-static void name_value(char value[VALUE_SIZE], const Figure *figure, size_t column) {
-    const double coarse = figure->kind ? figure->kind->coarse : 0;
+// Noise, and what is so noisy that it has no error, would set the scale of the axis if all points
+// were drawn.
+static void name_value(char value[VALUE_SIZE], const Figure *figure, size_t curve) {
+    const double coarse = figure->kind && figure_has_errors(figure) ? figure->kind->coarse : 0;
+    const char *sign = figure->curve[curve].negative ? "-" : "";
+    const size_t column = value_column(figure, curve);
     if (coarse > 0)
-        snprintf(value, VALUE_SIZE, "valid(%zu) && column(%zu) > %g ? NaN : $%zu", column + 1,
-                 column + 1, coarse, column);
+        snprintf(value, VALUE_SIZE, "valid(%zu) && column(%zu) <= %g ? %s$%zu : NaN", column + 1,
+                 column + 1, coarse, sign, column);
     else
-        snprintf(value, VALUE_SIZE, "$%zu", column);
+        snprintf(value, VALUE_SIZE, "%s$%zu", sign, column);
 }
 
 // A point of which the error is unknown is drawn without a bar: valid(3) asks. It would be skipped
 // if the error were called $3.
 static void put_curves(Text *script, const Figure *figure) {
     for (size_t c = 0; c < figure->curve_count; c++) {
-        char value[VALUE_SIZE], error[64];
+        char value[VALUE_SIZE], error[64], title[sizeof figure->curve[c].title + sizeof MINUS];
         const size_t column = value_column(figure, c);
-        name_value(value, figure, column);
+        name_value(value, figure, c);
         snprintf(error, sizeof error, "valid(%zu) ? column(%zu) : 0", column + 1, column + 1);
-        put_curve(script, figure, c, value, error, title_of(figure, c));
+        snprintf(title, sizeof title, "%s%s", figure->curve[c].negative ? MINUS : "",
+                 title_of(figure, c));
+        put_curve(script, figure, c, value, error, title);
     }
 }
 

@@ -110,12 +110,19 @@ static Status copy_axis(ResultAxis *copy, const ResultAxis *axis) {
     return OK;
 }
 
+// A number over the points of a sweep is a series of the number's name, which may end like the name
+// of a series made of another: flow_curve_exponent.
+static const ResultMeaning *meaning_of_series(const char *name) {
+    const ResultMeaning *series = result_series_meaning(name), *number = result_meaning(name);
+    if (!series || !number) return series ? series : number;
+    return series->name[0] == '*' && strcmp(number->name, name) == 0 ? number : series;
+}
+
 static Status fill_series(ResultSeries *series, const ResultSeries *shape, size_t replicas) {
     TRY(keep_name(series->stage, shape->stage));
     TRY(keep_name(series->observable, shape->observable));
     TRY(KEEP_TEXT(series->unit, shape->unit));
-    const ResultMeaning *meaning = result_series_meaning(shape->observable);
-    if (!meaning) meaning = result_meaning(shape->observable); // over the points of a sweep
+    const ResultMeaning *meaning = meaning_of_series(shape->observable);
     TRY(KEEP_TEXT(series->about, shape->about[0] || !meaning ? shape->about : meaning->about));
     ASSERT(shape->axes <= RESULT_AXES);
     series->size = 1;

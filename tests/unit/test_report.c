@@ -677,6 +677,7 @@ START_TEST(many_names_stand_below_two_panels_and_not_on_them) {
     ck_assert_ptr_nonnull(strstr(text_words(&script), "svg size 760,824 "));
     ck_assert_ptr_nonnull(strstr(text_words(&script), "set key at screen 0.5575, screen 0.1262 "));
     ck_assert_ptr_nonnull(strstr(text_words(&script), "set bmargin at screen 0.2311\n"));
+    ck_assert_ptr_nonnull(strstr(text_words(&script), " width -7 ")); // a quarter of 29 letters
     text_free(&script);
     results_free(results);
 
@@ -687,6 +688,94 @@ START_TEST(many_names_stand_below_two_panels_and_not_on_them) {
     ck_assert_ptr_nonnull(strstr(text_words(&script), "set key left top "));
     text_free(&script);
     results_free(results);
+}
+END_TEST
+
+// Three lags of displacements along x and of their product with y, of two replicas; at the second
+// lag only one has numbers of the product.
+static Results *displacements_in_a_flow(const char *observable) {
+    static const char *const directions[] = {"x", "xy"};
+    const double times[] = {0.1, 1, 10};
+    ResultSeries shape = {
+        .stage = "flow",
+        .unit = "d^2",
+        .axes = 2,
+        .axis = {{.name = "direction", .unit = "", .count = 2, .labels = directions},
+                 {.name = "time", .unit = "d^2/D0", .count = 3, .values = times}}};
+    strcpy(shape.observable, observable);
+    const double values[2][6] = {{1, 2, 3, 0.1, -2, -3}, {1, 2, 3.1, 0.1, NAN, -3.1}};
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 2), OK);
+    for (size_t r = 0; r < 2; r++) results_put_series(results, &shape, r, values[r]);
+    return results;
+}
+
+static Text script_of(const Results *results) {
+    const Figure figure = figure_of(results, &results->series[0]);
+    Text script = {0};
+    figure_script(&script, &figure);
+    return script;
+}
+
+// The product of x and y falls below zero when the rate is positive.
+START_TEST(a_logarithmic_axis_shows_the_negative_of_what_ends_below_zero) {
+    Results *results = displacements_in_a_flow("non_affine_displacement");
+    Text script = script_of(results);
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "data using 1:($2)"));
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "data using 1:(-$4)"));
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "title 'minus xy'"));
+    text_free(&script);
+    results_free(results);
+}
+END_TEST
+
+START_TEST(noise_without_an_error_is_not_drawn_where_noise_is_not) {
+    Results *results = displacements_in_a_flow("non_affine_displacement_exponent");
+    Text script = script_of(results);
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "(valid(5) && column(5) <= 0.3 ? $4 : NaN)"));
+    text_free(&script);
+    results_free(results);
+}
+END_TEST
+
+// "first lag of the fit", over decades.
+START_TEST(lags_over_decades_are_drawn_over_decades) {
+    Results *results = displacements_in_a_flow("self_scattering_kohlrausch_scan");
+    Text script = script_of(results);
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "set logscale x"));
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "set xlabel 'first lag of the fit"));
+    text_free(&script);
+    results_free(results);
+}
+END_TEST
+
+// Without a row of its own: a point per decade is enough.
+START_TEST(rates_over_decades_are_drawn_over_decades) {
+    const double rates[] = {0.3, 3, 30}, values[] = {1, 2, 3};
+    const ResultSeries shape = {
+        .stage = "flow",
+        .observable = "stress_strain",
+        .axes = 1,
+        .axis = {{.name = "shear_rate", .unit = "", .count = 3, .values = rates}}};
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    results_put_series(results, &shape, 0, values);
+    Text script = script_of(results);
+    ck_assert_ptr_nonnull(strstr(text_words(&script), "set logscale x"));
+    text_free(&script);
+    results_free(results);
+}
+END_TEST
+
+START_TEST(the_relation_of_transients_has_a_figure) {
+    static const char *const NAMES[] = {"self_scattering_relation",
+                                        "advected_scattering_normalised_relation",
+                                        "non_affine_displacement_relation"};
+    for (size_t i = 0; i < sizeof NAMES / sizeof *NAMES; i++) {
+        Results *results = displacements_in_a_flow(NAMES[i]);
+        ck_assert(figure_exists(results, &results->series[0]));
+        results_free(results);
+    }
 }
 END_TEST
 
@@ -787,6 +876,11 @@ int main(void) {
     tcase_add_test(tests, of_several_pictures_the_furthest_is_drawn_and_told);
     tcase_add_test(tests, of_too_many_curves_those_of_all_species_from_first_to_last_are_drawn);
     tcase_add_test(tests, many_names_stand_below_two_panels_and_not_on_them);
+    tcase_add_test(tests, a_logarithmic_axis_shows_the_negative_of_what_ends_below_zero);
+    tcase_add_test(tests, noise_without_an_error_is_not_drawn_where_noise_is_not);
+    tcase_add_test(tests, lags_over_decades_are_drawn_over_decades);
+    tcase_add_test(tests, rates_over_decades_are_drawn_over_decades);
+    tcase_add_test(tests, the_relation_of_transients_has_a_figure);
     tcase_add_test(tests, a_series_over_a_plane_is_drawn_as_a_picture);
     tcase_add_test(tests, a_caption_says_where_the_only_number_of_an_axis_is);
     tcase_add_test(tests, gnuplot_takes_quoted_words_literally);

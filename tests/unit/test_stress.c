@@ -129,6 +129,7 @@ START_TEST(pairs_press_along_the_line_between_them) {
     ck_assert_double_eq_tol(stress->values[2 * bins], -one * cos(angle) * sin(angle), 1e-9);
     const ResultSeries *directions = series_of(results, "quiescent", "contact_directions");
     const size_t sectors = directions->axis[1].count;
+    ck_assert_str_eq(directions->axis[1].unit, "rad");
     const double turned = angle < PI ? PI - angle : 2 * PI - angle; // y is mirrored
     for (size_t k = 0; k < sectors; k++) {
         const bool there = k == (size_t)(turned / PI * (double)sectors);

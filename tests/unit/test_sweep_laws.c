@@ -243,6 +243,8 @@ START_TEST(a_yield_stress_is_found_and_its_absence) {
     ck_assert_double_gt(results_series_estimate(results, given, 15).value, 0.31); // 0.6: too steep
     ck_assert_str_eq(given->unit, "kT/d^2");
     ck_assert_str_eq(given->about, result_series_meaning("yield_stress_at")->about);
+    ck_assert_str_eq(series_of(results, "flow", "flow_curve_exponent")->about,
+                     result_meaning("flow_curve_exponent")->about);
     ck_assert_str_eq(series_of(results, "flow", "yield_stress")->about,
                      result_meaning("yield_stress")->about);
     results_free(results);

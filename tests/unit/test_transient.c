@@ -216,6 +216,17 @@ START_TEST(diffusion_across_the_flow_is_a_slope) {
 }
 END_TEST
 
+// Where there are waiting strains, after the last of them.
+START_TEST(diffusion_across_the_flow_is_that_of_what_has_waited_longest) {
+    Results *results = relaxed("non_affine_displacement", true, false);
+    const double last = waited(100, BEST_STRAIN[WAITS - 1], true);
+    const double before = waited(50, BEST_STRAIN[WAITS - 1], true);
+    const double slope = scalar_of(results, "shear", "long_time_diffusion_y");
+    ck_assert_double_eq_tol(slope, (last - before) / (2 * 50), 2e-3);
+    results_free(results);
+}
+END_TEST
+
 // Of a stage whose flow is not steady, as correlators say themselves.
 START_TEST(an_unsteady_flow_has_no_long_time_diffusion) {
     static const Drive oscillating = {.flow = {.oscillation = {0.1, 0.05}}};
@@ -268,6 +279,7 @@ int main(void) {
     tcase_add_test(tests, so_do_displacements);
     tcase_add_test(tests, a_power_law_has_its_exponent);
     tcase_add_test(tests, diffusion_across_the_flow_is_a_slope);
+    tcase_add_test(tests, diffusion_across_the_flow_is_that_of_what_has_waited_longest);
     tcase_add_test(tests, an_unsteady_flow_has_no_long_time_diffusion);
     tcase_add_test(tests, an_unsteady_flow_is_not_taken_for_rest);
     tcase_add_test(tests, a_compressed_exponential_is_found);
