@@ -2,6 +2,7 @@
 // The text of report.html: HTML and CSS only, nothing fetched, nothing run.
 #include "report/page.h"
 
+#include "report/flow_table.h"
 #include "report/html.h"
 #include "report/notation.h"
 #include "report/select.h"
@@ -236,6 +237,7 @@ static void put_conventions(Text *page, const Results *results) {
 }
 
 void page_numbers(Text *page, const Results *results) {
+    flow_table_put(page, results);
     if (results->scalar_count == 0) return;
     text_put(page, "<h2>Numbers</h2>\n<table>\n<tr><th>Quantity</th><th class=\"n\">Value</th>"
                    "<th>Unit</th><th class=\"n\">Reference</th><th class=\"n\">Deviation</th>"

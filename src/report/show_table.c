@@ -3,11 +3,12 @@
 // name; a single series point by point.
 #include "report/show.h"
 
+#include "report/flow_table.h"
 #include "report/notation.h"
 
 #include <string.h>
 
-enum { COLUMN_MOST = RESULT_AXES + 2 };
+enum { COLUMN_MOST = RESULT_AXES + FLOW_COLUMNS };
 
 // Cells in rows of `columns`, each column as wide as its widest cell.
 typedef struct Table {
@@ -103,8 +104,7 @@ static void name_with_unit(Table *table, const char *name, const char *unit) {
     cell_ends(table);
 }
 
-static void series_point(Table *table, const Results *results, const ResultSeries *series,
-                         size_t element) {
+static void place_of_point(Table *table, const ResultSeries *series, size_t element) {
     size_t index[RESULT_AXES];
     show_indices(series, element, index);
     for (size_t i = 0; i < series->axes; i++) {
@@ -115,6 +115,16 @@ static void series_point(Table *table, const Results *results, const ResultSerie
             text_add(&table->text, "%.6g", axis->values[index[i]]);
         cell_ends(table);
     }
+}
+
+static void names_of_axes(Table *table, const ResultSeries *series) {
+    for (size_t i = 0; i < series->axes; i++)
+        name_with_unit(table, series->axis[i].name, series->axis[i].unit);
+}
+
+static void series_point(Table *table, const Results *results, const ResultSeries *series,
+                         size_t element) {
+    place_of_point(table, series, element);
     const Estimate estimate = results_series_estimate(results, series, element);
     notation_estimate(&table->text, estimate);
     cell_ends(table);
@@ -125,13 +135,36 @@ static void series_point(Table *table, const Results *results, const ResultSerie
 static void table_of_points(Text *text, const Results *results, const ResultSeries *series) {
     text_add(text, "%s/%s: %s\n", series->stage, series->observable, series->about);
     Table table = {.columns = series->axes + 2};
-    for (size_t i = 0; i < series->axes; i++) {
-        name_with_unit(&table, series->axis[i].name, series->axis[i].unit);
-    }
+    names_of_axes(&table, series);
     name_with_unit(&table, "value", series->unit);
     cell(&table, "n");
     for (size_t i = 0; i < series->size; i++) series_point(&table, results, series, i);
     table_ends(text, &table);
+}
+
+static void table_of_flow(Text *text, const Results *results, const FlowTable *flow) {
+    const ResultSeries *first = flow->column[0];
+    text_add(text, "\n%s, flow curves\n", first->stage);
+    Table table = {.columns = first->axes + flow->columns};
+    names_of_axes(&table, first);
+    for (size_t c = 0; c < flow->columns; c++)
+        name_with_unit(&table, flow->column[c]->observable, flow->column[c]->unit);
+    for (size_t point = 0; point < first->size; point++) {
+        place_of_point(&table, first, point);
+        for (size_t c = 0; c < flow->columns; c++) {
+            notation_estimate(&table.text,
+                              results_series_estimate(results, flow->column[c], point));
+            cell_ends(&table);
+        }
+    }
+    table_ends(text, &table);
+}
+
+static void tables_of_flow(Text *text, const Results *results) {
+    for (size_t i = 0; i < results->series_count; i++) {
+        FlowTable flow;
+        if (flow_table_of(&flow, results, &results->series[i])) table_of_flow(text, results, &flow);
+    }
 }
 
 // What analysis_judge said.
@@ -160,6 +193,7 @@ void show_table(Text *text, const Results *results, const Selection *selection) 
     if (selection->all) {
         if (results->scalar_count && results->series_count) text_put(text, "\n");
         table_of_names(text, results);
+        tables_of_flow(text, results);
         lines_of_equilibrium(text, results);
         line_of_left_out(text, results);
         return;

@@ -3,6 +3,7 @@
 #include "suite.h"
 
 #include "report/figure.h"
+#include "report/flow_table.h"
 #include "report/files.h"
 #include "report/gnuplot.h"
 #include "report/json.h"
@@ -392,6 +393,39 @@ START_TEST(where_nothing_can_be_written_the_sentence_names_the_path) {
     Results *results = sample();
     ck_assert_int_eq(report_write(results, "/proc/nowhere"), IO_FAILED);
     ck_assert_ptr_nonnull(strstr(status_sentence(), "cannot write /proc/nowhere/report.html"));
+    results_free(results);
+}
+END_TEST
+
+// Of a sweep: what a rheometer tells, a row per point; in the text and on the page.
+START_TEST(flow_curves_of_a_sweep_stand_in_one_table) {
+    static const char *const NAMES[] = {"shear_stress", "shear_viscosity", "mean_pressure"};
+    const double rates[] = {0.3, 3};
+    Results *results = NULL;
+    ck_assert_int_eq(results_create(&results, 2), OK);
+    for (size_t i = 0; i < 3; i++) {
+        ResultSeries shape = {
+            .stage = "flow",
+            .unit = "kT/d^2",
+            .axes = 1,
+            .axis = {{.name = "shear_rate", .unit = "", .count = 2, .values = rates}}};
+        strcpy(shape.observable, NAMES[i]);
+        for (size_t r = 0; r < 2; r++) {
+            const double values[] = {1 + (double)i, 11 + (double)i + 0.2 * (double)r};
+            results_put_series(results, &shape, r, values);
+        }
+    }
+    Text words = {0};
+    ck_assert_int_eq(report_show(&words, results, SHOW_TABLE, NULL), OK);
+    ck_assert_ptr_nonnull(
+        strstr(text_words(&words), "\nflow, flow curves\nshear_rate  shear_stress"));
+    ck_assert_ptr_nonnull(strstr(text_words(&words), "\n3           11.10(10)"));
+    text_free(&words);
+    flow_table_put(&words, results);
+    ck_assert_ptr_nonnull(strstr(text_words(&words),
+                                 "<td class=\"n\">3</td><td class=\"n\">11.10(10)</td>"
+                                 "<td class=\"n\">12.10(10)</td>"));
+    text_free(&words);
     results_free(results);
 }
 END_TEST
@@ -866,6 +900,7 @@ int main(void) {
     tcase_add_test(tests, bodies_are_drawn_as_they_are_seen_along_z);
     tcase_add_test(tests, a_broken_limit_is_the_first_thing_a_reader_sees);
     tcase_add_test(tests, where_nothing_can_be_written_the_sentence_names_the_path);
+    tcase_add_test(tests, flow_curves_of_a_sweep_stand_in_one_table);
     tcase_add_test(tests, an_observable_without_a_row_is_drawn_by_the_plain_rule);
     tcase_add_test(tests, one_species_is_drawn_once);
     tcase_add_test(tests, beta_scaling_is_shown_about_its_plateau);
