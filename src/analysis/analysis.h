@@ -34,7 +34,8 @@
 //   tracer_velocity, effective_friction, _earlier, _later          of tracer_passage
 //   friction_weak, friction_strong, friction_weak_contact, friction_strong_contact: theory of the
 //   same, equal spheres only
-//   shear_stress_contact, normal_stress_difference_contact, pressure_contact   of contact_stress
+//   shear_stress_contact, normal_stress_difference_contact, pressure_contact   of contact_stress,
+//   in space second_normal_stress_difference_contact too
 //   contact_angle, a series                                        of contact_directions
 //   zero_shear_viscosity and _window; viscosity and moduli_at_rest, series   of stress_wandering
 // With several species, diffusion is given for all particles and, with _NAME, for each species.

@@ -121,6 +121,9 @@ static Status put_tensor(Results *results, const ResultSeries *series, const Sys
                                stress.xy));
     TRY(results_put_scalar(results, stage, "normal_stress_difference_contact", unit, NULL, replica,
                            stress.xx - stress.yy));
+    if (system->dimension == 3)
+        TRY(results_put_scalar(results, stage, "second_normal_stress_difference_contact", unit,
+                               NULL, replica, stress.yy - stress.zz));
     return results_put_scalar(results, stage, "pressure_contact", unit, NULL, replica,
                               system_number_density(system) -
                                   (stress.xx + stress.yy + stress.zz) / dimension);

@@ -141,6 +141,43 @@ START_TEST(pairs_press_along_the_line_between_them) {
 }
 END_TEST
 
+// Stresses that bend on the way to contact, by their values there. In the plane there is no zz.
+START_TEST(normal_stress_differences_are_those_at_contact) {
+    enum { BINS = 40, ELEMENTS = 3 };
+    static const char *const LABELS[] = {"xx", "yy", "zz"};
+    static const double AT_CONTACT[] = {-5, -6, -6.5};
+    double distances[BINS], values[ELEMENTS * BINS];
+    for (size_t k = 0; k < BINS; k++) {
+        distances[k] = 1 + 0.002 * ((double)k + 0.5);
+        for (size_t e = 0; e < ELEMENTS; e++)
+            values[e * BINS + k] = AT_CONTACT[e] * (1 - 3 * (distances[k] - 1));
+    }
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        const size_t elements = (size_t)dimension;
+        const ResultSeries shape = {
+            .stage = "flow",
+            .observable = "contact_stress",
+            .unit = "kT/d^3",
+            .axes = 2,
+            .axis = {{.name = "element", .unit = "", .count = elements, .labels = LABELS},
+                     {.name = "scaled_distance", .unit = "", .count = BINS, .values = distances}}};
+        const System system = system_of(dimension, 100, 0.3, 1);
+        Results *results = NULL;
+        ck_assert_int_eq(results_create(&results, 1), OK);
+        results_put_series(results, &shape, 0, values);
+        ck_assert_int_eq(analysis_derive(results, &system), OK);
+        ck_assert_double_eq_tol(scalar_of(results, "flow", "normal_stress_difference_contact"), 1,
+                                1e-9);
+        const char *second = "second_normal_stress_difference_contact";
+        if (dimension == 3)
+            ck_assert_double_eq_tol(scalar_of(results, "flow", second), 0.5, 1e-9);
+        else
+            ck_assert_ptr_null(results_find_scalar(results, "flow", second));
+        results_free(results);
+    }
+}
+END_TEST
+
 // Lets an observer look whenever it wants to at what `exchanged` says was exchanged by then.
 static void tell(Observer *observer, const State *state, double (*exchanged)(double time)) {
     const ObservableKind *kind = observer->kind;
@@ -402,6 +439,7 @@ static Suite *suite(void) {
     tcase_add_test(c, viscosity_is_the_slope_of_the_wandering);
     tcase_add_test(c, moduli_follow_from_the_wandering);
     tcase_add_loop_test(c, pairs_press_along_the_line_between_them, 0, 8);
+    tcase_add_test(c, normal_stress_differences_are_those_at_contact);
     tcase_add_test(c, start_up_shows_its_overshoot);
     tcase_add_test(c, an_overshoot_that_cannot_be_placed_is_not_told);
     tcase_add_test(c, a_sharp_overshoot_is_told);
