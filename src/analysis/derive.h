@@ -55,6 +55,7 @@ Status derive_centred(Results *results, const ResultSeries *scattering, const ch
                       double diffusion);
 Status derive_shift(Results *results, const ResultSeries *scattering);
 Status derive_scaled(Results *results, const ResultSeries *scattering);
+Status derive_against_strain(Results *results, const ResultSeries *scattering);
 Status derive_kohlrausch(Results *results, const ResultSeries *scattering);
 Status derive_normalised_scattering(Results *results, const ResultSeries *ends);
 Status derive_centred_scattering(Results *results, const ResultSeries *ends);

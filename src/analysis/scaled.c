@@ -3,6 +3,9 @@
 // have fallen to 1/e, are one master curve for all states near the glass transition (Weysser,
 // thesis, ch. 3). Here they are put on one grid of t/tau, the same for all states, so that a sweep
 // can lay them over each other. tau is found anew for each sample of the jackknife.
+//
+// And those of steady flows against strain: where strain is all that makes a glass relax, as in
+// slow flows, they are one master curve for all rates (ch. 5).
 #include "analysis/decay.h"
 #include "analysis/derive.h"
 #include "base/memory.h"
@@ -13,40 +16,44 @@
 enum { POINTS = 51, PER_DECADE = 10 };
 static const double FIRST = 1e-4; // up to 10
 
-static void scale(const double *times, const double *mean, size_t lags, const double *grid,
-                  double *out) {
-    const double tau = decay_time_at(times, mean, lags, 1 / exp(1));
-    for (size_t i = 0; i < POINTS; i++)
-        out[i] = isnan(tau) ? (double)NAN : decay_value_at(times, mean, lags, tau * grid[i]);
-}
-
 typedef struct Scaling {
     const ResultSeries *series;
+    const char *suffix, *axis;
+    double unit; // the time that is 1 on the grid; 0: tau
     size_t lags, rows;
     double grid[POINTS];
     double *mean;   // [lags]
     double *values; // [replica][row][POINTS]: pseudo-values
 } Scaling;
 
+static void scale(const Scaling *scaling, const double *times, double *out) {
+    const double *mean = scaling->mean, *grid = scaling->grid;
+    const size_t lags = scaling->lags;
+    const double tau =
+        scaling->unit > 0 ? scaling->unit : decay_time_at(times, mean, lags, 1 / exp(1));
+    for (size_t i = 0; i < POINTS; i++)
+        out[i] = isnan(tau) ? (double)NAN : decay_value_at(times, mean, lags, tau * grid[i]);
+}
+
 static void derive_row(const Results *results, Scaling *scaling, size_t row) {
     double all[POINTS], rest[POINTS];
     const size_t lags = scaling->lags;
     const double *times = scaling->series->axis[scaling->series->axes - 1].values;
     decay_mean(results, scaling->series, row * lags, lags, DECAY_NOBODY, scaling->mean);
-    scale(times, scaling->mean, lags, scaling->grid, all);
+    scale(scaling, times, all);
     for (size_t r = 0; r < results->replicas; r++) {
         double *values = scaling->values + (r * scaling->rows + row) * POINTS;
         decay_mean(results, scaling->series, row * lags, lags, (int64_t)r, scaling->mean);
-        scale(times, scaling->mean, lags, scaling->grid, rest);
+        scale(scaling, times, rest);
         for (size_t i = 0; i < POINTS; i++)
             values[i] = pseudo_value(results->replicas, all[i], rest[i]);
     }
 }
 
 static Status put(Results *results, const Scaling *scaling) {
-    ResultSeries shape = derive_shape(scaling->series, "_scaled");
-    shape.axis[shape.axes - 1] =
-        (ResultAxis){.name = "scaled_time", .unit = "", .count = POINTS, .values = scaling->grid};
+    ResultSeries shape = derive_shape(scaling->series, scaling->suffix);
+    shape.axis[shape.axes - 1] = (ResultAxis){.unit = "", .count = POINTS, .values = scaling->grid};
+    shape.axis[shape.axes - 1].name = scaling->axis;
     for (size_t r = 0; r < results->replicas; r++) {
         TRY(results_put_series(results, &shape, r, scaling->values + r * scaling->rows * POINTS));
     }
@@ -54,11 +61,13 @@ static Status put(Results *results, const Scaling *scaling) {
 }
 
 // Time is the last axis.
-Status derive_scaled(Results *results, const ResultSeries *series) {
+static Status derive(Results *results, const ResultSeries *series, Scaling scaling) {
     const ResultAxis *time = &series->axis[series->axes - 1];
     if (strcmp(time->name, "time") != 0) return OK;
     const ResultSeries shape = *series; // results may move it when they grow
-    Scaling scaling = {.series = &shape, .lags = time->count, .rows = series->size / time->count};
+    scaling.series = &shape;
+    scaling.lags = time->count;
+    scaling.rows = series->size / time->count;
     for (size_t i = 0; i < POINTS; i++) scaling.grid[i] = FIRST * pow(10, (double)i / PER_DECADE);
     Status status = NEW_ARRAY(scaling.mean, scaling.lags);
     if (status == OK) status = NEW_ARRAY(scaling.values, results->replicas * scaling.rows * POINTS);
@@ -68,4 +77,16 @@ Status derive_scaled(Results *results, const ResultSeries *series) {
     memory_free(scaling.mean);
     memory_free(scaling.values);
     return status;
+}
+
+Status derive_scaled(Results *results, const ResultSeries *series) {
+    return derive(results, series, (Scaling){.suffix = "_scaled", .axis = "scaled_time"});
+}
+
+Status derive_against_strain(Results *results, const ResultSeries *series) {
+    const ResultScalar *found = results_find_scalar(results, series->stage, "shear_rate");
+    const double rate = found ? fabs(results_scalar_estimate(results, found).value) : 0;
+    if (!(rate > 0)) return OK;
+    return derive(results, series,
+                  (Scaling){.suffix = "_against_strain", .axis = "strain", .unit = 1 / rate});
 }

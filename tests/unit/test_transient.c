@@ -257,6 +257,26 @@ START_TEST(an_unsteady_flow_is_not_taken_for_rest) {
 }
 END_TEST
 
+// The transient of this file is a function of strain alone but for what it does at rest; between
+// lags a twentieth of a decade apart values are on straight lines in log t.
+START_TEST(a_steady_flow_has_its_functions_against_strain) {
+    Results *results = relaxed("self_scattering", false, false);
+    const ResultSeries *series = series_of(results, "shear", "self_scattering_against_strain");
+    const ResultAxis *strain = &series->axis[series->axes - 1];
+    ck_assert_str_eq(strain->name, "strain");
+    size_t compared = 0;
+    for (size_t i = 0; i < strain->count; i++) {
+        const double value = results_series_estimate(results, series, i).value;
+        if (isnan(value)) continue;
+        ck_assert_double_eq_tol(value, waited(strain->values[i] / RATE, 0, false), 2e-3);
+        compared++;
+    }
+    ck_assert_uint_ge(compared, 40);
+    ck_assert_ptr_null(results_find_series(results, "rest", "self_scattering_against_strain"));
+    results_free(results);
+}
+END_TEST
+
 // As strain melts a glass: faster than exponentially.
 static double compressed(double t) {
     return 0.2 * exp(-t / 0.01) + 0.8 * exp(-pow(t / 20, 1.5));
@@ -282,6 +302,7 @@ int main(void) {
     tcase_add_test(tests, diffusion_across_the_flow_is_that_of_what_has_waited_longest);
     tcase_add_test(tests, an_unsteady_flow_has_no_long_time_diffusion);
     tcase_add_test(tests, an_unsteady_flow_is_not_taken_for_rest);
+    tcase_add_test(tests, a_steady_flow_has_its_functions_against_strain);
     tcase_add_test(tests, a_compressed_exponential_is_found);
     suite_add_tcase(suite, tests);
     return run_suite(suite);
