@@ -797,6 +797,9 @@ START_TEST(rates_over_decades_are_drawn_over_decades) {
     Text script = script_of(results);
     ck_assert_ptr_nonnull(strstr(text_words(&script), "set logscale x"));
     text_free(&script);
+    ck_assert(figure_exists(results, &results->series[0]));
+    strcpy(results->series[0].observable, "shear_rate"); // against itself
+    ck_assert(!figure_exists(results, &results->series[0]));
     results_free(results);
 }
 END_TEST
