@@ -14,8 +14,8 @@ set xlabel "cycles"
 set xtics 6000
 set xrange [0:24500]
 set ylabel "step of the tracer over that of the bath"
-set yrange [0.98:1.16]
-set key at graph 0.97, graph 0.6 right
+set yrange [0.98:1.26]
+set key inside top right noreverse Right
 plot for [i = 1:4] file(i, "step") using 1:($2/step(i)):($3/step(i)) with yerrorlines linetype i title word(names, i), \
      1.05042 with lines linecolor rgb "#555555" dashtype 2 title "a tracer alone, Pe = 10"
 set ylabel "clock of the tracer over that of the bath"
@@ -29,7 +29,7 @@ set xlabel "t in d^2/D_0"
 set ylabel "<x> in d"
 plot for [i = 2:4] file(i, "way") using 1:2:3 with yerrorlines linetype i
 set ylabel "<y^2> in d^2"
-set key top left
+set key inside top left reverse Left
 plot for [i = 2:4] file(i, "across") using 1:2:3 with yerrorlines linetype i title word(names, i), \
      2*x with lines linecolor rgb "#555555" dashtype 2 title "2 D_0 t"
 unset multiplot
