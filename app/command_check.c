@@ -289,7 +289,7 @@ static void print_theory_cost(const Plan *plan) {
     print_bytes((double)plan_memory(plan));
     printf("\ntime      about ");
     print_seconds(plan_seconds(plan));
-    if (slots > 1) printf(", for errors all is done %zu times: structure.groups", slots + 1);
+    if (slots > 1) printf(", for errors all is done up to %zu times: structure.groups", slots + 1);
     printf("\n");
 }
 

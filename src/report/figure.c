@@ -352,8 +352,16 @@ size_t figure_columns(const Figure *figure) {
     return columns;
 }
 
+// Of a theory only what comes from a measured structure has errors.
+static bool knows_errors(const Figure *figure) {
+    for (size_t i = 0; i < figure->series->size; i++) {
+        if (results_series_estimate(figure->results, figure->series, i).n > 1) return true;
+    }
+    return false;
+}
+
 bool figure_has_errors(const Figure *figure) {
-    if (figure_is_theory(figure)) return false;
+    if (figure_is_theory(figure)) return figure->results->replicas > 1 && knows_errors(figure);
     return figure->results->replicas > 1 || results_own_errors(figure->results, figure->series);
 }
 
@@ -390,16 +398,20 @@ void figure_caption(Text *text, const Figure *figure) {
     put_places(text, figure);
     if ((figure->line || figure->level || figure->limit[0]) && kind->about_line)
         text_add(text, " %s", kind->about_line);
-    if (figure_has_errors(figure) && figure->y) {
+    const char *shown = figure_is_dense(figure) ? "bands" : "bars";
+    if (figure_is_theory(figure)) {
+        if (figure_has_errors(figure) && !figure->y)
+            text_add(text, " In %s: standard error, by leaving out parts of what was measured.",
+                     shown);
+    } else if (figure_has_errors(figure) && figure->y) {
         text_add(text, " Mean over %zu replicas.", results->replicas);
     } else if (figure_has_errors(figure)) {
-        const char *shown = figure_is_dense(figure) ? "bands" : "bars";
         if (results->replicas > 1)
             text_add(text, " Mean over %zu replicas; %s: standard error of the mean.",
                      results->replicas, shown);
         else
             text_add(text, " One replica; %s: standard error over its trajectories.", shown);
-    } else if (!figure_is_theory(figure)) {
+    } else {
         text_put(text, " One replica, hence no errors.");
     }
     if (figure->sums_alone && !figure->y) text_put(text, " Of all species together.");

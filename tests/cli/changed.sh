@@ -79,6 +79,16 @@ cp -r one fluid
 for theory in single sweep; do run $theory $theory; done
 stop_shear
 
+# Errors of the structure come with it, where groups of replicas are left out.
+expect "the page shows errors" grep -q 'leaving out parts of what was measured' single/report.html
+"$perrin" show single --csv theory/structure_factor > csv || exit 1
+expect "all are there" sh -c "! cut -d, -f4 csv | sed 1d | grep -q '^\$'"
+"$perrin" run single.yaml --quiet --threads 1 --set theory.structure.groups=1 -o once || exit 1
+"$perrin" show once --csv theory/structure_factor > csv || exit 1
+expect "but not of one group" sh -c "! cut -d, -f4 csv | sed 1d | grep -q ."
+expect "nor on its page" sh -c "! grep -q 'leaving out parts' once/report.html"
+expect "which check says" sh -c "'$perrin' check single.yaml | grep -q 'all is done up to 9 times'"
+
 # The same numbers in files that are not the same.
 rm -r fluid && "$perrin" rerun one/results.h5 --quiet -o fluid || exit 1
 expect "the files differ" sh -c '! cmp -s one/results.h5 fluid/results.h5'
