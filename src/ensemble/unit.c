@@ -2,6 +2,7 @@
 // One replica from its checkpoint or its packing to its end.
 #include "ensemble/unit.h"
 
+#include "base/patience.h"
 #include "base/seconds.h"
 #include "protocol/calculation.h"
 #include "protocol/replica.h"
@@ -273,13 +274,15 @@ static Status run_calculation(Theorist *theorist) {
     while (!calculation_finished(theorist->calculation)) {
         if (atomic_load(&shared->stop)) return stop_calculation(theorist);
         if (calculation_save_due(theorist)) TRY(save_calculation(theorist));
-        TRY(calculation_advance(theorist->calculation, shared->results));
+        const Status status = calculation_advance(theorist->calculation, shared->results);
+        if (status == INTERRUPTED) return stop_calculation(theorist);
+        TRY(status);
         tell_calculation(theorist, true);
     }
     return OK;
 }
 
-static Status unit_calculation(EnsembleShared *shared) {
+static Status work_out(EnsembleShared *shared) {
     Theorist theorist = {.shared = shared,
                          .last_checkpoint = seconds_now(),
                          .requests_seen = atomic_load(&shared->checkpoint_requests)};
@@ -288,6 +291,14 @@ static Status unit_calculation(EnsembleShared *shared) {
     if (status == OK) status = run_calculation(&theorist);
     tell_calculation(&theorist, false);
     calculation_free(theorist.calculation);
+    return status;
+}
+
+// Some steps take minutes: they are left within.
+static Status unit_calculation(EnsembleShared *shared) {
+    patience_set(&shared->stop);
+    const Status status = work_out(shared);
+    patience_set(NULL);
     return status;
 }
 

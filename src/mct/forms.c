@@ -4,6 +4,7 @@
 #include "mct/forms.h"
 
 #include "base/memory.h"
+#include "base/patience.h"
 #include "mct/glass.h"
 
 #include <math.h>
@@ -16,6 +17,7 @@ static Status iterate_self(Model *model, const Radial *radial, double *self, dou
     const size_t size = model->species * model->grid->stride;
     double change = 1;
     for (int iteration = 0; iteration < ITERATIONS_MOST && change >= CONVERGED; iteration++) {
+        TRY(patience_check());
         change = 0;
         model_tagged(model, radial, self, memory);
         for (size_t k = 0; k < size; k++) {

@@ -4,6 +4,7 @@
 #include "mct/glass.h"
 
 #include "base/memory.h"
+#include "base/patience.h"
 #include "mct/lines.h"
 
 #include <math.h>
@@ -68,6 +69,7 @@ static Status converge(Model *model, double *form, double *memory, Leap *state, 
     double most = 0, change = 0;
     memcpy(state->last, form, model->size * sizeof *form);
     for (size_t iteration = 1; iteration <= ITERATIONS_MOST; iteration++) {
+        TRY(patience_check());
         model_memory(model, form, memory);
         TRY(iterate(model, memory, form, &most, &change));
         *glass = most >= GONE;
@@ -159,6 +161,7 @@ static Status power(Model *model, Work *work, void (*apply)(Model *, Work *, con
                     double *vector, double *eigenvalue) {
     double change = 1;
     for (size_t iteration = 0; iteration < POWER_MOST && change >= CONVERGED; iteration++) {
+        TRY(patience_check());
         apply(model, work, vector);
         const double size = sqrt(model_product(model, work->next, work->next));
         change = 0;

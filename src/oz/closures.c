@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "base/memory.h"
+#include "base/patience.h"
 #include "numerics/anderson.h"
 #include "numerics/small.h"
 
@@ -352,6 +353,7 @@ static Status converge(Closures *c, double packing_fraction, OzEffort *effort) {
     effort->at = packing_fraction;
     anderson_restart(c->mixing);
     for (effort->iterations = 0; effort->iterations < ITERATIONS_MOST; effort->iterations++) {
+        TRY(patience_check());
         const Status status = map(c, density, &effort->residual);
         if (status == OK && effort->residual < CONVERGED) return OK;
         if (status != OK && (!any || backs == BACKS_MOST)) return status;
@@ -384,7 +386,7 @@ static Status walk(Closures *c, double packing_fraction, double step, OzEffort *
 
 static Status follow(Closures *c, double packing_fraction, OzEffort *effort) {
     Status status = UNHEALTHY;
-    for (int attempt = 0; attempt < ATTEMPTS && status != OK; attempt++)
+    for (int attempt = 0; attempt < ATTEMPTS && status == UNHEALTHY; attempt++)
         status = walk(c, packing_fraction, DENSITY_STEPS[attempt], effort);
     return status;
 }

@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "base/memory.h"
+#include "base/patience.h"
 #include "numerics/quadrature.h"
 #include "numerics/small.h"
 
@@ -620,6 +621,7 @@ static Status iterate(Discs *discs, const Densities *densities, double converged
     double before = INFINITY;
     bool fresh = discs->solved > 0;
     for (effort->iterations = 0; effort->iterations < STEPS_MOST; effort->iterations++) {
+        TRY(patience_check());
         TRY(fill_residuals(discs, densities, &effort->residual));
         if (effort->residual < converged) return OK;
         if (effort->residual > 1e6) break;
@@ -691,7 +693,7 @@ static Status check_fluid(const Discs *discs, const Structure *structure) {
 Status discs_solve(Discs *discs, Structure *structure, OzEffort *effort) {
     Status status = UNHEALTHY;
     double finer = 1;
-    for (int attempt = 0; attempt < ATTEMPTS && status != OK; attempt++, finer /= 2) {
+    for (int attempt = 0; attempt < ATTEMPTS && status == UNHEALTHY; attempt++, finer /= 2) {
         if (discs->solved == 0) start(discs);
         status = follow(discs, structure, finer, effort);
         if (status == OK) status = check_fluid(discs, structure);

@@ -72,13 +72,20 @@ static Status advance_pass(Calculation *c, Results *results) {
     return theory_advance(c->theory, results);
 }
 
+// Not where the structure that it takes could not be fitted, or was left within.
+static bool pass_begun(const Calculation *c) {
+    return c->itt || c->schematic || c->theory;
+}
+
 static bool pass_finished(const Calculation *c) {
+    if (!pass_begun(c)) return false;
     if (c->itt) return itt_finished(c->itt);
     if (c->schematic) return schematic_finished(c->schematic);
     return theory_finished(c->theory);
 }
 
 static double pass_progress(const Calculation *c) {
+    if (!pass_begun(c)) return 0;
     if (c->itt) return itt_progress(c->itt);
     if (c->schematic) return schematic_progress(c->schematic);
     return theory_progress(c->theory);
@@ -143,12 +150,14 @@ double calculation_progress(const Calculation *c) {
 }
 
 const char *calculation_doing(const Calculation *c) {
+    if (!pass_begun(c)) return "structure";
     if (c->itt) return itt_doing(c->itt);
     if (c->schematic) return schematic_doing(c->schematic);
     return theory_doing(c->theory);
 }
 
 double calculation_time(const Calculation *c) {
+    if (!pass_begun(c)) return 0;
     if (c->itt) return itt_time(c->itt);
     if (c->schematic) return schematic_time(c->schematic);
     return theory_time(c->theory);

@@ -5,6 +5,7 @@
 #include "suite.h"
 
 #include "base/archive.h"
+#include "base/patience.h"
 #include "mct/critical.h"
 #include "numerics/small.h"
 #include "oz/oz.h"
@@ -400,6 +401,15 @@ START_TEST(passes_that_are_done_need_not_be_done_again) {
         ck_assert_int_eq(calculation_advance(calculation, results), OK);
     Archive saved = archive_writer();
     calculation_save(calculation, &saved);
+    // Who is told to stop while the structure of the next pass is fitted has no theory of it.
+    const atomic_int stop = 1;
+    Archive left = archive_reader(saved.bytes, saved.size);
+    patience_set(&stop);
+    ck_assert_int_eq(calculation_load(later, again, &left), INTERRUPTED);
+    ck_assert_double_eq(calculation_progress(later), 2.0 / (REPLICAS + 1));
+    ck_assert_str_eq(calculation_doing(later), "structure");
+    ck_assert(!calculation_finished(later) && calculation_can_save(later));
+    patience_set(NULL);
     Archive loaded = archive_reader(saved.bytes, saved.size);
     ck_assert_msg(calculation_load(later, again, &loaded) == OK, "%s", status_sentence());
     ck_assert_double_ge(calculation_progress(later), 2.0 / (REPLICAS + 1));

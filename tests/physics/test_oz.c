@@ -2,6 +2,7 @@
 // Structures of hard discs and spheres against exact results and independent solutions.
 #include "suite.h"
 
+#include "base/patience.h"
 #include "oz/inside.h"
 #include "oz/oz.h"
 
@@ -269,6 +270,27 @@ START_TEST(what_cannot_be_is_refused) {
 }
 END_TEST
 
+// Some solutions take minutes: who is told to stop within one says so, does not try again, and is
+// none the worse.
+START_TEST(a_solution_is_left_where_it_is_no_longer_wanted) {
+    static const Closure closures[] = {CLOSURE_PERCUS_YEVICK, CLOSURE_HYPERNETTED_CHAIN,
+                                       CLOSURE_ROGERS_YOUNG};
+    atomic_int stop = 1;
+    const double q = 6;
+    for (int i = 0; i < 3; i++) {
+        const Structure *s = NULL;
+        Oz *oz = NULL;
+        ck_assert_int_eq(oz_create(&oz, closures[i], &DISCS, &q, 1), OK);
+        patience_set(&stop);
+        ck_assert_int_eq(oz_solve(oz, 0.3, &s), INTERRUPTED);
+        ck_assert_uint_eq(oz_effort(oz).iterations, 0);
+        patience_set(NULL);
+        ck_assert_int_eq(oz_solve(oz, 0.3, &s), OK);
+        oz_free(oz);
+    }
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("oz");
     TCase *tests = tcase_create("structure");
@@ -288,6 +310,7 @@ int main(void) {
     tcase_add_test(tests, closures_of_equals_are_those_of_the_pure_fluid);
     tcase_add_test(tests, grids_agree_with_closed_forms_and_collocation);
     tcase_add_test(tests, what_cannot_be_is_refused);
+    tcase_add_test(tests, a_solution_is_left_where_it_is_no_longer_wanted);
     suite_add_tcase(suite, tests);
     return run_suite(suite);
 }
