@@ -230,7 +230,7 @@ static Status read_expected(const Judgement *judgement, size_t row, Expectation 
     }
     TRY(find_measured(judgement, expected, out->measure, &other));
     out->expected = factor * other.estimate.value;
-    out->uncertainty = isnan(other.estimate.error) ? 0 : factor * other.estimate.error;
+    out->uncertainty = isnan(other.estimate.error) ? 0 : fabs(factor) * other.estimate.error;
     return OK;
 }
 

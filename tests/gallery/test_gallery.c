@@ -168,11 +168,12 @@ START_TEST(verdicts_are_as_the_readme_says) {
              "a,Z,> 2.4,0,0,,published,a bound\n"
              "a,Z,>2.49,0,0,,published,near a bound\n"
              "a,Z,< 2.6,0,0,,published,a bound\n"
-             "a,Z,< 2.4,0,0,,published,beyond a bound\n");
+             "a,Z,< 2.4,0,0,,published,beyond a bound\n"
+             "a,Z,-1 * b,0,0,,independent,the opposite\n");
     FILE *out = fopen("/dev/null", "w");
     ck_assert_int_eq(gallery_judge(&run, out, &missed, &count), OK);
-    ck_assert_uint_eq(count, 15);
-    ck_assert_uint_eq(missed, 6);
+    ck_assert_uint_eq(count, 16);
+    ck_assert_uint_eq(missed, 7);
     static const char *const verdicts[] = {"met", "MISSED", "met",    "met", "coarse",
                                            "met", "met",    "MISSED", "met", "MISSED",
                                            "met", "met",    "coarse", "met", "MISSED"};
@@ -186,6 +187,8 @@ START_TEST(verdicts_are_as_the_readme_says) {
     double value;
     ck_assert_int_eq(csv_number(csv, 5, "error", NAN, &value), OK);
     ck_assert_double_eq_tol(value, 0.01 * sqrt(5), 1e-9);
+    ck_assert_int_eq(csv_number(csv, 15, "uncertainty", NAN, &value), OK);
+    ck_assert_double_eq_tol(value, 0.01, 1e-9);
     csv_free(csv);
     put_file("expected.csv",
              "subject,measure,expected,uncertainty,tolerance,precision,kind,source\n"
