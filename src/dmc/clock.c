@@ -70,11 +70,22 @@ double clock_pull_work(const ChainClock *clock) {
     return clock->pull.force * clock->step[clock->pull.species];
 }
 
+static double pace_at(double f) {
+    return 6 * pull_drift(f) / f;
+}
+
 // Time of a free particle's trial under the force over that without one, for equal half-widths: the
 // exact mean displacement over D F.
 static double pull_pace(const ChainClock *clock) {
     const double f = clock_pull_work(clock);
-    return clock->pull.kind == PULL_EXACT_FORCE && f > 0 ? 6 * pull_drift(f) / f : 1;
+    return clock->pull.kind == PULL_EXACT_FORCE && f > 0 ? pace_at(f) : 1;
+}
+
+double clock_pull_power(const ChainClock *clock) {
+    static const double APART = 0.01; // of f, in two works between which the power is taken
+    const double f = clock_pull_work(clock);
+    if (clock->pull.kind != PULL_EXACT_FORCE || !(f > 0)) return 2;
+    return 2 + (pace_at(f * (1 + APART)) / pace_at(f) - 1) / APART;
 }
 
 // Trials along the force are rejected more often than their time is short, so that those across it

@@ -56,6 +56,9 @@ double clock_step(const ChainClock *clock, size_t species);
 void clock_pull(ChainClock *clock, const ClockPull *pull);
 void clock_pull_rests(ChainClock *clock, bool rests);
 double clock_pull_work(const ChainClock *clock); // f: force times half-width of a trial, in kT
+// Time of a free tracer's trial goes with this power of its step: 2, and 1 where it gives way to
+// the force in every trial.
+double clock_pull_power(const ChainClock *clock);
 
 // Begins to count afresh.
 void clock_restart(ChainClock *clock);

@@ -387,13 +387,19 @@ static Status drive(Propagator *propagator, const Drive *drive, int64_t steps) {
     return OK;
 }
 
+static bool is_tracer(const DynamicPropagator *made, size_t species) {
+    return made->pulled && species == made->tracer;
+}
+
 // Where a species is slower than the first, longer steps; its acceptance falls with them, so that
-// the square root converges from one side. `share` of that is taken, less and less, so that the
-// noise of all adjustments averages out.
+// the square root, or that of the power by which a pulled tracer's time goes with its step,
+// converges from one side. `share` of that is taken, less and less, so that the noise of all
+// adjustments averages out.
 static Status adjust(DynamicPropagator *made, size_t species, double share) {
     const System *system = &made->state->system;
     const double pace = clock_cycle_of(made->clock, 0) / clock_cycle_of(made->clock, species);
-    const double factor = 1 + share * (sqrt(fmin(fmax(pace, 0.25), 4)) - 1);
+    const double power = is_tracer(made, species) ? clock_pull_power(made->clock) : 2;
+    const double factor = 1 + share * (sqrt(fmin(fmax(pace, 0.25), 4)) - 1) * 2 / power;
     const double step = fmin(clock_step(made->clock, species) * factor, 1);
     const ChainSettings chain = chain_settings(&made->set);
     const Diffusion diffusion = species_diffusion(&system->species[species]);
@@ -444,10 +450,6 @@ static Status check_one_clock(const DynamicPropagator *made, const Agreement *ag
                            made->set.step);
     }
     return OK;
-}
-
-static bool is_tracer(const DynamicPropagator *made, size_t species) {
-    return made->pulled && species == made->tracer;
 }
 
 static void note_round(DynamicPropagator *made) {

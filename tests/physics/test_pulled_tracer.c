@@ -360,6 +360,27 @@ START_TEST(errors_over_trajectories_are_those_over_replicas) {
 }
 END_TEST
 
+// A tracer alone, whose trials of exact mean at f = 2 are worth half the bath's at first: within
+// 4000 cycles its step is that which makes them one clock, so that it drifts at D F.
+START_TEST(a_lone_tracer_finds_its_step_in_a_calibration) {
+    Plan *plan = pulled_plan(1e-6, 10, 0.1, 10, 10);
+    plan->system.particles = 2;
+    plan->system.species[0].fraction = plan->system.species[1].fraction = 0.5;
+    set_number(&plan->stages[1].dynamics.settings, &propagator_dynamic_monte_carlo.options,
+               "calibration", 4000);
+    plan->stages[1].drive.pull.clock = PULL_EXACT_FORCE;
+    plan->stages[1].drive.pull.rest = 0;
+    Results *results = simulate(plan);
+    const Estimate friction = measured(results, "effective_friction"),
+                   pace = measured_at(results, "tracer_pace", 7);
+    printf("friction %.4f(%.4f), pace %.4f(%.4f)\n", friction.value, friction.error, pace.value,
+           pace.error);
+    ck_assert_double_eq_tol(pace.value, 1, 0.005); // 0.973 by the square root of the pace
+    ck_assert_double_eq_tol(friction.value, 1, 0.005 + 3 * friction.error);
+    results_free(results);
+}
+END_TEST
+
 int main(void) {
     Suite *suite = suite_create("a pulled tracer");
     ADD_CASE(suite, friction_is_that_of_event_driven_dynamics, 2);
@@ -368,6 +389,7 @@ int main(void) {
     ADD_CASE(suite, nothing_is_in_front_without_a_force, 1);
     ADD_CASE(suite, a_strong_force_leaves_a_wake, 1);
     ADD_CASE(suite, scattered_rods_touch_as_often_as_evenly_spread_ones, 1);
+    ADD_CASE(suite, a_lone_tracer_finds_its_step_in_a_calibration, 1);
     ADD_CASE(suite, a_tracer_is_not_looked_at_in_its_own_wake, 1);
     ADD_CASE(suite, a_single_replica_has_errors_over_its_trajectories, 1);
     ADD_CASE(suite, errors_over_trajectories_are_those_over_replicas, 1);
