@@ -157,6 +157,7 @@ static Status ask_curve(const Judgement *judgement, const char *curve, const cha
         const Measured *at = &judgement->measured[i];
         if (strcmp(at->curve, curve) != 0 || strcmp(at->measure, measure) != 0) continue;
         const double y = at->estimate.value, error = at->estimate.error;
+        if (isnan(y)) continue;
         if (of_curves[what].logarithms)
             line_add(&line, log(at->x), log(y), error / y);
         else
@@ -246,6 +247,7 @@ static Status read_expectation(const Judgement *judgement, size_t row, Expectati
 static const char *verdict_of(const Expectation *want, double value, double error) {
     const double far = fabs(value - want->expected);
     const double chance = STANDARD_ERRORS * hypot(error, want->uncertainty);
+    if (isnan(far)) return "coarse"; // the run was too short or too noisy to tell it
     if (want->side != 0) {
         const double beyond = want->side * (value - want->expected) + want->tolerance;
         return beyond > chance ? "met" : beyond >= -chance ? "coarse" : "MISSED";

@@ -93,7 +93,15 @@ static Status find_place(const Results *results, Name *name, Place *place) {
     return status_fail(BAD_DATA, "there are no results %s/%s", name->stage, name->quantity);
 }
 
-// The value in each replica.
+// What the analysis tells of some runs of a stage and not of others, such as where a peak is.
+static bool is_withheld(const Results *results, const Name *name) {
+    if (!result_meaning(name->quantity)) return false;
+    for (size_t i = 0; i < results->scalar_count; i++)
+        if (strcmp(results->scalars[i].stage, name->stage) == 0) return true;
+    return false;
+}
+
+// The value in each replica; NaN where it is not told.
 static Status read_values(const Results *results, const char *text, size_t length, double *values) {
     Name name;
     TRY(read_name(&name, text, length));
@@ -106,10 +114,11 @@ static Status read_values(const Results *results, const char *text, size_t lengt
         return OK;
     }
     const ResultScalar *scalar = results_find_scalar(results, name.stage, name.quantity);
-    if (!scalar) {
+    if (!scalar && !is_withheld(results, &name))
         return status_fail(BAD_DATA, "there is no result %s/%s", name.stage, name.quantity);
+    for (size_t r = 0; r < results->replicas; r++) {
+        values[r] = scalar ? scalar->values[r] : (double)NAN;
     }
-    memcpy(values, scalar->values, results->replicas * sizeof *values);
     return OK;
 }
 

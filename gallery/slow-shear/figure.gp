@@ -1,5 +1,4 @@
-# Transient functions in four directions, and against strain those of three rates in the young glass, of
-# two in an old one, and stationary ones; the files are
+# Transient functions in four directions, and against strain those of three rates; the files are
 # POINT-MEASURE.csv.
 load "style.gp"
 set terminal svg size 1100,820
@@ -7,7 +6,6 @@ set multiplot layout 2,2
 set logscale x
 set format x "10^{%L}"
 rates = "0.02 0.06 0.2"
-slow = "0.02 0.002"
 rate(i) = word(rates, i) + 0
 name(i) = "pe".word(rates, i)
 set xlabel "strain"
@@ -21,11 +19,8 @@ do for [i = 1:3:2] {
          name(i)."-xy.csv" using ($1*rate(i)):2:3 with yerrorlines linetype 3 title "xy", \
          name(i)."--xy.csv" using ($1*rate(i)):2:3 with yerrorlines linetype 4 title "-xy"
 }
-set xrange [8e-4:1]
 set ylabel "F^s(q,t), q d = 6.6, mean of directions"
-plot for [i = 1:3] name(i)."-mean.csv" using ($1*rate(i)):2:3 with yerrorlines linetype i title "rate ".word(rates, i), \
-     for [r in slow] "old".r."-mean.csv" using ($1*r):2:3 with yerrorlines linetype (r > 0.01 ? 4 : 5) title r.", old", \
-     for [r in slow] "old".r."-steady_mean.csv" using ($1*r):2:3 with lines linetype (r > 0.01 ? 4 : 5) dashtype 2 title r.", stationary"
+plot for [i = 1:3] name(i)."-mean.csv" using ($1*rate(i)):2:3 with yerrorlines linetype i title "rate ".word(rates, i)
 set ylabel "d ln<dy^2>/d ln t"
 set yrange [0:2]
 set key top left

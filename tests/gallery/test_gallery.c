@@ -151,7 +151,8 @@ START_TEST(verdicts_are_as_the_readme_says) {
     put_results("a", 1, 0.5); // Z = 2 x + 0.5: 0.5 at x = 0
     put_results("b", 2, 0.5);
     put_file("points.csv", "point,curve,x,settings\na,line,1,\nb,line,2,\n");
-    put_file("measures.csv", "measure,quantity\nZ,rest/Z\nmsd,\"rest/msd[big,*]\"\n");
+    put_file("measures.csv",
+             "measure,quantity\nZ,rest/Z\npeak,rest/overshoot_strain\nmsd,\"rest/msd[big,*]\"\n");
     put_file("expected.csv",
              "subject,measure,expected,uncertainty,tolerance,precision,kind,source\n"
              "a,Z,2.529,0,0,,exact,within three standard errors\n"
@@ -169,19 +170,20 @@ START_TEST(verdicts_are_as_the_readme_says) {
              "a,Z,>2.49,0,0,,published,near a bound\n"
              "a,Z,< 2.6,0,0,,published,a bound\n"
              "a,Z,< 2.4,0,0,,published,beyond a bound\n"
-             "a,Z,-1 * b,0,0,,independent,the opposite\n");
+             "a,Z,-1 * b,0,0,,independent,the opposite\n"
+             "a,peak,0.07,0,0.03,,published,not told of this run\n");
     FILE *out = fopen("/dev/null", "w");
     ck_assert_int_eq(gallery_judge(&run, out, &missed, &count), OK);
-    ck_assert_uint_eq(count, 16);
-    ck_assert_uint_eq(missed, 7);
-    static const char *const verdicts[] = {"met", "MISSED", "met",    "met", "coarse",
-                                           "met", "met",    "MISSED", "met", "MISSED",
-                                           "met", "met",    "coarse", "met", "MISSED"};
+    ck_assert_uint_eq(count, 17);
+    ck_assert_uint_eq(missed, 8);
+    static const char *const verdicts[] = {"met",    "MISSED", "met",    "met",    "coarse", "met",
+                                           "met",    "MISSED", "met",    "MISSED", "met",    "met",
+                                           "coarse", "met",    "MISSED", "MISSED", "coarse"};
     Csv *csv = NULL;
     char path[GALLERY_PATH];
     ck_assert_int_eq(gallery_path(path, folder, "verdict.csv"), OK);
     ck_assert_int_eq(csv_read(&csv, path), OK);
-    for (size_t i = 0; i < 15; i++) ck_assert_str_eq(csv_cell(csv, i, "verdict"), verdicts[i]);
+    for (size_t i = 0; i < 17; i++) ck_assert_str_eq(csv_cell(csv, i, "verdict"), verdicts[i]);
     ck_assert_str_eq(csv_cell(csv, 0, "deviation"), "-2.9");
     // Errors of 0.01 at x = 1 and 2: sqrt(2^2 + 1) of them at 0.
     double value;
@@ -195,6 +197,9 @@ START_TEST(verdicts_are_as_the_readme_says) {
              "a,Z,half * b,0,0,,exact,no number\n");
     ck_assert_int_eq(gallery_judge(&run, out, &missed, &count), BAD_DATA);
     ck_assert_ptr_nonnull(strstr(status_sentence(), "'half' before ' * ' is not a number"));
+    put_file("measures.csv", "measure,quantity\nZ,rest/overshot_strain\n");
+    ck_assert_int_eq(gallery_judge(&run, out, &missed, &count), BAD_DATA);
+    ck_assert_ptr_nonnull(strstr(status_sentence(), "no result rest/overshot_strain"));
     fclose(out);
     char *curve = file_text("b-msd.csv");
     ck_assert_ptr_nonnull(strstr(curve, "1,5,0\n"));
