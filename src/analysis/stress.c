@@ -60,7 +60,7 @@ static double near_peak(const StartUp *mean, double sign, size_t *begin, size_t 
     *begin = *end = top;
     while (*begin > 0 && sign * smooth(mean, *begin - 1) > least) --*begin;
     while (*end < mean->count && sign * smooth(mean, *end) > least) ++*end;
-    while (*end - *begin<PEAK_LEAST && * begin> 0 && *end < mean->count) {
+    while (*begin > 0 && *end < mean->count && *end - *begin < PEAK_LEAST) {
         if (sign * smooth(mean, *begin - 1) > sign * smooth(mean, *end))
             --*begin;
         else
