@@ -98,9 +98,8 @@ static void print_next_place(const System *system, const Pull *pull) {
 
 // A trajectory ends where it has gone 3/4 of the edge; the force stays on until its time is over.
 static void print_end(const System *system, const Pull *pull, double velocity, double time) {
-    static const double SHARE = 0.75;
     const Box box = system_box(system);
-    const double end = SHARE * box.edge[pull->axis] / velocity;
+    const double end = TRACER_DISTANCE * box.edge[pull->axis] / velocity;
     if (end < time)
         printf(
             "          %-16s with a friction below %.2g a trajectory ends before its time, at 3/4\n"

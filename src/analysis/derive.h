@@ -2,20 +2,12 @@
 // The parts of analysis_derive, one for each kind of series, and what they share.
 #pragma once
 
+#include "numerics/jackknife.h"
 #include "results/results.h"
 #include "state/system.h"
 
 #include <stdbool.h>
 #include <stdint.h>
-
-// The jackknife's pseudo-value of a replica (Efron, SIAM monograph 38, 1982), from a number found
-// with all `replicas` and without this one; of a single replica, the number itself. Of two, that of
-// the other: what the jackknife takes off as bias would be noise, of the size of the error at
-// least.
-static inline double pseudo_value(size_t replicas, double all, double without) {
-    if (replicas < 3) return replicas < 2 ? all : without;
-    return (double)replicas * all - (double)(replicas - 1) * without;
-}
 
 // The shape of a series that is made of another: its axes and its unit. A name that begins with '_'
 // stands behind that of the other. The sentence is that of series.def until it is given.

@@ -28,6 +28,8 @@ bool tracer_has_alike(const Pull *pull, const System *system);
 // axis).
 double tracer_chance_of_room(const Pull *pull, const System *system);
 enum { TRACER_ATTEMPTS = 1000000 }; // random places that are tried
+// Of the edge along the force: where a trajectory ends unless it is told otherwise.
+#define TRACER_DISTANCE 0.75
 
 // From masses, as a thermostat gives them; else from the shapes, as Monte Carlo takes them: the
 // free diffusion coefficient of the tracer, in D0.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Errors of whatever was calculated from samples, by leaving out some of them (Efron & Tibshirani,
-// An Introduction to the Bootstrap, ch. 11): with w of all samples and x_g without group g of G,
-// the pseudo-values G w - (G - 1) x_g have as mean and standard error those of the jackknife.
+// An Introduction to the Bootstrap, ch. 11): pseudo-values have as mean and standard error those of
+// the jackknife.
 #include "results/results.h"
 
 #include "base/memory.h"
+#include "numerics/jackknife.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,7 +42,7 @@ static void pseudo_values(const Passes *passes, size_t group, double *out) {
     const double *whole = passes->values[0], *without = passes->values[group + 1];
     for (size_t i = 0; i < passes->size; i++) {
         if (!passes->certain && has_errors(passes, i))
-            out[i] = whole[i] + (double)(passes->groups - 1) * (whole[i] - without[i]);
+            out[i] = pseudo_value(passes->groups, whole[i], without[i]);
         else
             out[i] = group == 0 ? whole[i] : (double)NAN;
     }

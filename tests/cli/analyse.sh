@@ -3,13 +3,7 @@
 # What `analyse` measures from trajectories: the numbers of the run itself, bit for bit, where it
 # sees the same configurations; other observables with other settings; and what it says where it
 # cannot. analyse.sh PERRIN
-set -u
-LC_ALL=C
-export LC_ALL
-perrin=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch" || exit 1
+. "$(dirname "$0")/scratch.sh"
 
 # A step is 0.00125 d^2/D0, of which every one is stored, and no lag is shorter.
 cat > run.yaml << 'END_OF_FILE'

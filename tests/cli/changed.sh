@@ -2,13 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # A theory whose measured structure has changed since is calculated anew and says so, and what it
 # had is kept; one whose structure is the same is left as it is. changed.sh PERRIN
-set -u
-LC_ALL=C
-export LC_ALL
-perrin=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch" || exit 1
+. "$(dirname "$0")/scratch.sh"
 
 cat > fluid.yaml << 'END'
 system: {dimension: 2, particles: 100, packing_fraction: 0.6, species: {disc: {shape: disc}}}

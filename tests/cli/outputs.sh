@@ -2,13 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What the program says to outputs that it cannot write, must not write over or cannot read, word
 # for word, and that it leaves every file of them as it was. outputs.sh PERRIN
-set -u
-LC_ALL=C
-export LC_ALL
-perrin=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch" || exit 1
+. "$(dirname "$0")/scratch.sh"
 
 cat > small.yaml << 'END'
 system: {dimension: 2, particles: 50, packing_fraction: 0.3, species: {grain: {shape: disc}}}

@@ -2,13 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What `show` and `report` make of a run, as a reader sees it: the same numbers in the table, as
 # CSV and as JSON; a page that needs nothing else. show.sh PERRIN
-set -u
-LC_ALL=C
-export LC_ALL
-perrin=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
-scratch=$(mktemp -d) || exit 1
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch" || exit 1
+. "$(dirname "$0")/scratch.sh"
 
 cat > small.yaml << 'END'
 title: 5 < 7 & "so on"

@@ -439,6 +439,20 @@ static double stress_of(const IttPlan *plan) {
     return stress;
 }
 
+static IttPlan coarse_flow(void) {
+    return (IttPlan){.given = true,
+                     .structure = CLOSURE_FUNDAMENTAL,
+                     .packing_fraction = DENSITIES[1],
+                     .input = {.groups = 1},
+                     .spacing = 0.8,
+                     .last_wave_number = 16,
+                     .shear_rate = 1,
+                     .last_strain = 6,
+                     .block = 32,
+                     .first_time = 1e-3,
+                     .times_per_decade = 5};
+}
+
 // The stress is that of the closed form that was sampled, at a packing fraction that is off by no
 // more than the transition may be: one in a thousand.
 START_TEST(discs_under_shear_may_have_a_measured_structure) {
@@ -446,17 +460,7 @@ START_TEST(discs_under_shear_may_have_a_measured_structure) {
     static const char folder[] = "measured_flows";
     Samples *samples = sampled(CLOSURE_FUNDAMENTAL, &DISCS, 500);
     write_folder(samples, NONE, folder);
-    IttPlan plan = {.given = true,
-                    .structure = CLOSURE_FUNDAMENTAL,
-                    .packing_fraction = DENSITIES[1],
-                    .input = {.groups = 1},
-                    .spacing = 0.8,
-                    .last_wave_number = 16,
-                    .shear_rate = 1,
-                    .last_strain = 6,
-                    .block = 32,
-                    .first_time = 1e-3,
-                    .times_per_decade = 5};
+    IttPlan plan = coarse_flow();
     IttPlan below = plan, above = plan;
     below.packing_fraction *= 1 - 1e-3;
     above.packing_fraction *= 1 + 1e-3;
@@ -479,16 +483,8 @@ END_TEST
 START_TEST(a_flow_without_some_replicas_goes_on_from_where_it_was_saved) {
     Samples *samples = sampled(CLOSURE_FUNDAMENTAL, &DISCS, 500);
     write_folder(samples, NONE, "measured_flow");
-    Plan plan = {.itt = {.given = true,
-                         .input = {.file = "measured_flow", .groups = REPLICAS},
-                         .packing_fraction = DENSITIES[1],
-                         .spacing = 0.8,
-                         .last_wave_number = 16,
-                         .shear_rate = 1,
-                         .last_strain = 6,
-                         .block = 32,
-                         .first_time = 1e-3,
-                         .times_per_decade = 5}};
+    Plan plan = {.itt = coarse_flow()};
+    plan.itt.input = (TheoryInput){.file = "measured_flow", .groups = REPLICAS};
     itt_complete(&plan.itt);
     Calculation *calculation = NULL, *later = NULL;
     Results *results = NULL, *again = NULL, *without[REPLICAS];

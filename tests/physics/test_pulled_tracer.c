@@ -259,10 +259,9 @@ static void place_pair(State *state, int64_t tick) {
     state->position[0][0] = fmod(place + side + edge, edge);
 }
 
-// What a tracer meets after 3/4 of the edge it may have pushed there itself. Looks are every three
-// ticks, and the second trajectory does not begin with one.
-START_TEST(a_tracer_is_not_looked_at_in_its_own_wake) {
-    State *state = pair_in_a_box();
+// What is seen of two trajectories of 40 ticks in which `place` moves the particles.
+static Results *two_trajectories(const ObservableKind *kind, const Settings *settings, State *state,
+                                 void (*place)(State *state, int64_t tick)) {
     const Drive drive = {.pull = {.species = "tracer", .peclet = 1, .period = 40}};
     const Clock clock = {.tick = 1,
                          .ticks = 80,
@@ -270,53 +269,49 @@ START_TEST(a_tracer_is_not_looked_at_in_its_own_wake) {
                          .unit = "d^2/D0",
                          .stage = "measured",
                          .drive = &drive};
+    Observer *observer = NULL;
+    Results *results = NULL;
+    ck_assert_int_eq(kind->create(&observer, settings, state, &clock), OK);
+    for (int64_t tick = kind->next(observer, -1); tick <= clock.ticks;
+         tick = kind->next(observer, tick)) {
+        place(state, tick);
+        ck_assert_int_eq(kind->see(observer, tick, state, &(Tally){0}), OK);
+    }
+    ck_assert_int_eq(results_create(&results, 1), OK);
+    ck_assert_int_eq(kind->write(observer, state, results, 0), OK);
+    kind->free(observer);
+    return results;
+}
+
+// What a tracer meets after 3/4 of the edge it may have pushed there itself. Looks are every three
+// ticks, and the second trajectory does not begin with one.
+START_TEST(a_tracer_is_not_looked_at_in_its_own_wake) {
+    State *state = pair_in_a_box();
     const ObservableKind *kind = &observable_tracer_surroundings;
     Settings settings = settings_of(&kind->options);
     set_number(&settings, &kind->options, "begin", 0);
     set_number(&settings, &kind->options, "looks", 27);
-    Observer *observer = NULL;
-    ck_assert_int_eq(kind->create(&observer, &settings, state, &clock), OK);
-    for (int64_t tick = kind->next(observer, -1); tick <= clock.ticks;
-         tick = kind->next(observer, tick)) {
-        place_pair(state, tick);
-        ck_assert_int_eq(kind->see(observer, tick, state, &(Tally){0}), OK);
-    }
-    Results *results = NULL;
-    ck_assert_int_eq(results_create(&results, 1), OK);
-    ck_assert_int_eq(kind->write(observer, state, results, 0), OK);
+    Results *results = two_trajectories(kind, &settings, state, place_pair);
     const double shell = 4 * PI / 3 * (pow(1.05, 3) - 1) * (1 - sqrt(0.75)) / 2;
     ck_assert_double_eq(measured(results, "contact_density_behind").value, 0);
     ck_assert_double_eq_tol(measured(results, "contact_density_front").value,
                             9.0 / 19 * 8000 / shell, 0.01); // looks of the first, of both
-    kind->free(observer);
     results_free(results);
     state_free(state);
 }
 END_TEST
 
+static void place_tracer(State *state, int64_t tick) {
+    state->position[0][1] = (tick < 40 ? 0.1 : 0.3) * (double)(tick % 40);
+}
+
 // Two trajectories of 40 ticks, in which a tracer goes 0.1 and 0.3 d in each: a single replica
 // tells the error of their mean.
 START_TEST(a_single_replica_has_errors_over_its_trajectories) {
     State *state = pair_in_a_box();
-    const Drive drive = {.pull = {.species = "tracer", .peclet = 1, .period = 40}};
-    const Clock clock = {.tick = 1,
-                         .ticks = 80,
-                         .ticks_per_step = 1,
-                         .unit = "d^2/D0",
-                         .stage = "measured",
-                         .drive = &drive};
     const ObservableKind *kind = &observable_pulled_tracer;
     const Settings settings = settings_of(&kind->options);
-    Observer *observer = NULL;
-    ck_assert_int_eq(kind->create(&observer, &settings, state, &clock), OK);
-    for (int64_t tick = kind->next(observer, -1); tick <= clock.ticks;
-         tick = kind->next(observer, tick)) {
-        state->position[0][1] = (tick < 40 ? 0.1 : 0.3) * (double)(tick % 40);
-        ck_assert_int_eq(kind->see(observer, tick, state, &(Tally){0}), OK);
-    }
-    Results *results = NULL;
-    ck_assert_int_eq(results_create(&results, 1), OK);
-    ck_assert_int_eq(kind->write(observer, state, results, 0), OK);
+    Results *results = two_trajectories(kind, &settings, state, place_tracer);
     ck_assert_int_eq(analysis_derive(results, &state->system), OK);
     ck_assert_double_eq(measured(results, "tracer_trajectories").value, 2);
     const Estimate velocity = measured(results, "tracer_velocity"),
@@ -334,7 +329,6 @@ START_TEST(a_single_replica_has_errors_over_its_trajectories) {
     ck_assert_double_eq_tol(way.error, 2, 1e-12);
     ck_assert_double_eq_tol(square.value, 20, 1e-12); // of 4 and 36
     ck_assert_double_eq_tol(square.error, 16, 1e-12);
-    kind->free(observer);
     results_free(results);
     state_free(state);
 }

@@ -547,11 +547,11 @@ START_TEST(a_figure_of_a_sweep_says_which_points_it_lacks) {
 }
 END_TEST
 
-// Friction at three forces, and what theory says of weak ones, over their half of the axis.
-START_TEST(a_limit_is_drawn_over_its_half_of_the_axis) {
+// Friction at three forces, and what theory says of weak ones.
+static Results *friction_of(const double peclet[3], const double friction[3]) {
     Results *results = NULL;
     ck_assert_int_eq(results_create(&results, 1), OK);
-    const double peclet[] = {1, 10, 100}, friction[] = {2, 1.5, 1.2}, weak[] = {1.4, 1.4, 1.4};
+    const double weak[] = {1.4, 1.4, 1.4};
     ResultSeries shape = {.stage = "pulled",
                           .observable = "effective_friction",
                           .axes = 1,
@@ -559,6 +559,13 @@ START_TEST(a_limit_is_drawn_over_its_half_of_the_axis) {
     results_put_series(results, &shape, 0, friction);
     snprintf(shape.observable, sizeof shape.observable, "friction_weak");
     results_put_series(results, &shape, 0, weak);
+    return results;
+}
+
+// Of weak forces over their half of the axis.
+START_TEST(a_limit_is_drawn_over_its_half_of_the_axis) {
+    const double peclet[] = {1, 10, 100}, friction[] = {2, 1.5, 1.2};
+    Results *results = friction_of(peclet, friction);
     const Figure figure = figure_of(results, &results->series[0]);
     ck_assert(!figure_exists(results, &results->series[1]));
     Text csv = {0}, script = {0};
@@ -577,16 +584,8 @@ END_TEST
 // A logarithmic axis has no place for 0: the value there is a level over the left half, which
 // begins at the first force, as limits do.
 START_TEST(friction_at_rest_is_a_level_where_forces_are_weak) {
-    Results *results = NULL;
-    ck_assert_int_eq(results_create(&results, 1), OK);
-    const double peclet[] = {0, 1, 100}, friction[] = {2.5, 2, 1.2}, weak[] = {1.4, 1.4, 1.4};
-    ResultSeries shape = {.stage = "pulled",
-                          .observable = "effective_friction",
-                          .axes = 1,
-                          .axis = {{.name = "peclet", .unit = "", .count = 3, .values = peclet}}};
-    results_put_series(results, &shape, 0, friction);
-    snprintf(shape.observable, sizeof shape.observable, "friction_weak");
-    results_put_series(results, &shape, 0, weak);
+    const double peclet[] = {0, 1, 100}, friction[] = {2.5, 2, 1.2};
+    Results *results = friction_of(peclet, friction);
     const Figure figure = figure_of(results, &results->series[0]);
     Text script = {0};
     figure_script(&script, &figure);
