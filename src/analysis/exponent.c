@@ -36,10 +36,9 @@ static void fill(const Results *results, const ResultSeries *series, double *val
         const bool inside = k > 0 && k + 1 < time->count;
         const double *at = time->values + k;
         const double all = inside ? exponent(results, series, e, at, NOBODY) : (double)NAN;
-        for (size_t r = 0; r < results->replicas; r++) {
-            const double rest = inside ? exponent(results, series, e, at, (int64_t)r) : (double)NAN;
-            values[r * series->size + e] = pseudo_value(results->replicas, all, rest);
-        }
+        for (size_t r = 0; r < results->replicas && inside; r++)
+            values[r * series->size + e] = exponent(results, series, e, at, (int64_t)r);
+        pseudo_values(results->replicas, all, values + e, series->size);
     }
 }
 

@@ -230,11 +230,10 @@ static void derive_sheet(Sheet *sheet, double *all, size_t count, double *values
     for (size_t r = 0; r < sheet->results->replicas; r++) {
         mean_without(sheet, (int64_t)r);
         if (sheet->results->replicas > 1) numbers_of(sheet);
-        for (size_t i = 0; i < count; i++) {
-            values[r * stride + i] =
-                pseudo_value(sheet->results->replicas, all[i], sheet->number[i]);
-        }
+        memcpy(values + r * stride, sheet->number, count * sizeof *values);
     }
+    for (size_t i = 0; i < count; i++)
+        pseudo_values(sheet->results->replicas, all[i], values + i, stride);
 }
 
 // Of one part, the axes: what it has of wave number and time behind those of the sheets.

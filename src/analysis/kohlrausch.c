@@ -185,7 +185,7 @@ static bool is_seen(const Row *row, const double quantity[QUANTITIES]) {
 // replicas or of all but one.
 static void derive_row(Row *row, double *values, size_t index, size_t rows) {
     double all[QUANTITIES], rest[QUANTITIES];
-    const size_t replicas = row->results->replicas;
+    const size_t replicas = row->results->replicas, stride = QUANTITIES * rows;
     mean_without(row, DECAY_NOBODY);
     scan(row);
     choose_window(row);
@@ -195,14 +195,11 @@ static void derive_row(Row *row, double *values, size_t index, size_t rows) {
         mean_without(row, (int64_t)r);
         quantities(row, rest);
         seen = seen && (replicas < 2 || is_seen(row, rest));
-        for (size_t q = 0; q < QUANTITIES; q++) {
-            values[(r * QUANTITIES + q) * rows + index] = pseudo_value(replicas, all[q], rest[q]);
-        }
+        for (size_t q = 0; q < QUANTITIES; q++) values[r * stride + q * rows + index] = rest[q];
     }
-    for (size_t r = 0; r < replicas && !seen; r++) {
-        for (size_t q = 0; q < QUANTITIES; q++) {
-            if (q != RELAXATION_TIME) values[(r * QUANTITIES + q) * rows + index] = NAN;
-        }
+    for (size_t q = 0; q < QUANTITIES; q++) {
+        if (!seen && q != RELAXATION_TIME) all[q] = NAN;
+        pseudo_values(replicas, all[q], values + q * rows + index, stride);
     }
 }
 

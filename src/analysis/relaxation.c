@@ -71,10 +71,9 @@ static Status relaxation_times(const Decay *decay, double *times) {
     if (status == OK) status = NEW_ARRAY(weights, decay->lags);
     if (status == OK) {
         const double all = -1 / slope_without(decay, NOBODY, logarithms, weights);
-        for (size_t r = 0; r < replicas; r++) {
-            times[r] = pseudo_value(replicas, all,
-                                    -1 / slope_without(decay, (int64_t)r, logarithms, weights));
-        }
+        for (size_t r = 0; r < replicas; r++)
+            times[r] = -1 / slope_without(decay, (int64_t)r, logarithms, weights);
+        pseudo_values(replicas, all, times, 1);
     }
     memory_free(logarithms);
     memory_free(weights);

@@ -36,18 +36,17 @@ static void scale(const Scaling *scaling, const double *times, double *out) {
 }
 
 static void derive_row(const Results *results, Scaling *scaling, size_t row) {
-    double all[POINTS], rest[POINTS];
-    const size_t lags = scaling->lags;
+    double all[POINTS], *values = scaling->values + row * POINTS;
+    const size_t lags = scaling->lags, stride = scaling->rows * POINTS;
     const double *times = scaling->series->axis[scaling->series->axes - 1].values;
     decay_mean(results, scaling->series, row * lags, lags, DECAY_NOBODY, scaling->mean);
     scale(scaling, times, all);
     for (size_t r = 0; r < results->replicas; r++) {
-        double *values = scaling->values + (r * scaling->rows + row) * POINTS;
         decay_mean(results, scaling->series, row * lags, lags, (int64_t)r, scaling->mean);
-        scale(scaling, times, rest);
-        for (size_t i = 0; i < POINTS; i++)
-            values[i] = pseudo_value(results->replicas, all[i], rest[i]);
+        scale(scaling, times, values + r * stride);
     }
+    for (size_t i = 0; i < POINTS; i++)
+        pseudo_values(results->replicas, all[i], values + i, stride);
 }
 
 static Status put(Results *results, const Scaling *scaling) {

@@ -47,14 +47,13 @@ static void ratios(const Shift *shift, size_t row, int64_t without, double out[L
 
 static void derive_rows(Shift *shift) {
     const size_t replicas = shift->results->replicas;
-    double all[LEVELS], rest[LEVELS];
+    const size_t stride = shift->rows * LEVELS;
+    double all[LEVELS];
     for (size_t row = 0; row < shift->rows; row++) {
+        double *values = shift->values + row * LEVELS;
         ratios(shift, row, DECAY_NOBODY, all);
-        for (size_t r = 0; r < replicas; r++) {
-            ratios(shift, row, (int64_t)r, rest);
-            double *values = shift->values + (r * shift->rows + row) * LEVELS;
-            for (size_t l = 0; l < LEVELS; l++) values[l] = pseudo_value(replicas, all[l], rest[l]);
-        }
+        for (size_t r = 0; r < replicas; r++) ratios(shift, row, (int64_t)r, values + r * stride);
+        for (size_t l = 0; l < LEVELS; l++) pseudo_values(replicas, all[l], values + l, stride);
     }
 }
 

@@ -37,27 +37,25 @@ static void see_states(const Sweep *sweep, size_t row, int64_t without, States *
     }
 }
 
-static void apply_to_row(const Sweep *sweep, Law *law, size_t row, double *all, double *rest) {
+static void apply_to_row(const Sweep *sweep, Law *law, size_t row, double *all) {
+    const size_t replicas = sweep->results->replicas, stride = sweep->rows * sweep->numbers;
+    double *values = sweep->values + row * sweep->numbers;
     const ResultAxis *axis = &sweep->series.axis[sweep->axis];
     States states = {.count = axis->count, .at = axis->values};
     see_states(sweep, row, NOBODY, &states);
     law(&states, all);
-    for (size_t r = 0; r < sweep->results->replicas; r++) {
+    for (size_t r = 0; r < replicas; r++) {
         see_states(sweep, row, (int64_t)r, &states);
-        law(&states, rest);
-        for (size_t k = 0; k < sweep->numbers; k++) {
-            sweep->values[(r * sweep->rows + row) * sweep->numbers + k] =
-                pseudo_value(sweep->results->replicas, all[k], rest[k]);
-        }
+        law(&states, values + r * stride);
     }
+    for (size_t k = 0; k < sweep->numbers; k++) pseudo_values(replicas, all[k], values + k, stride);
 }
 
 static Status apply(Sweep *sweep, Law *law) {
     double *numbers = NULL;
     TRY(NEW_ARRAY(sweep->values, sweep->results->replicas * sweep->rows * sweep->numbers));
-    TRY(NEW_ARRAY(numbers, 2 * sweep->numbers));
-    for (size_t row = 0; row < sweep->rows; row++)
-        apply_to_row(sweep, law, row, numbers, numbers + sweep->numbers);
+    TRY(NEW_ARRAY(numbers, sweep->numbers));
+    for (size_t row = 0; row < sweep->rows; row++) apply_to_row(sweep, law, row, numbers);
     memory_free(numbers);
     return OK;
 }
@@ -141,6 +139,15 @@ static bool ends_in(const char *name, const char *ending) {
     return length > tail && strcmp(name + length - tail, ending) == 0;
 }
 
+// Whether a stage flows, as its correlators tell: a flow makes it relax at any packing fraction.
+static bool flows(const Results *results, const char *stage) {
+    static const char *const rates[] = {"shear_rate", "largest_shear_rate"};
+    for (size_t i = 0; i < sizeof rates / sizeof *rates; i++) {
+        if (results_find_series(results, stage, rates[i])) return true;
+    }
+    return false;
+}
+
 static Status derive_from(Results *results, const ResultSeries *series) {
     static const struct {
         const char *ending, *axis;
@@ -152,6 +159,8 @@ static Status derive_from(Results *results, const ResultSeries *series) {
     Sweep sweep;
     for (size_t i = 0; i < sizeof laws / sizeof *laws; i++) {
         if (!ends_in(series->observable, laws[i].ending)) continue;
+        const bool of_a_transition = strcmp(laws[i].axis, "packing_fraction") == 0;
+        if (of_a_transition && flows(results, series->stage)) return OK;
         return sweep_make(&sweep, results, series, laws[i].axis) ? laws[i].derive(results, &sweep)
                                                                  : OK;
     }

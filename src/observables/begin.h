@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How every `create` ends.
+// How every `create` ends, and what several checks ask.
 #pragma once
 
 #include "observables/observables.h"
@@ -12,3 +12,6 @@ static inline Status observer_begin(Observer **out, Observer *made, Status statu
         made->kind->free(made);
     return status;
 }
+
+// BAD_DATA where the stage is sheared, with what to take in its place.
+Status observer_check_rest(const char *observable, const char *instead, const Clock *clock);

@@ -98,7 +98,7 @@ static Status check(const Settings *settings_, const System *system, const Clock
     const CollectiveSettings *settings = settings_in(settings_);
     const Box box = system_box(system);
     Shell shells[OPTION_LIST_SIZE];
-    TRY(wave_vectors_check_rest("collective_scattering", "advected_scattering", clock));
+    TRY(observer_check_rest("collective_scattering", "advected_scattering", clock));
     TRY(wave_numbers_check("collective_scattering", &settings->wave_numbers, system));
     TRY(frame_check("collective_scattering", settings->frame, 0, clock));
     const size_t count = shells_of(settings, system, shells);

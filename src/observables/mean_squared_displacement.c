@@ -44,12 +44,7 @@ static const LagSettings *lag_settings(const Settings *settings) {
 
 static Status check(const Settings *settings, const System *system, const Clock *clock) {
     (void)system;
-    if (clock->drive && drive_kinds(clock->drive) & DRIVE_FLOW) {
-        return status_fail(BAD_DATA,
-                           "mean_squared_displacement is of a stage at rest, and stage "
-                           "'%s' is sheared; take non_affine_displacement",
-                           clock->stage);
-    }
+    TRY(observer_check_rest("mean_squared_displacement", "non_affine_displacement", clock));
     TRY(tracer_check_stays("mean_squared_displacement", clock));
     TRY(frame_check("mean_squared_displacement", settings_in(settings)->frame, 0, clock));
     return lags_check("mean_squared_displacement", lag_settings(settings), clock);

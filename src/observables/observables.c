@@ -2,6 +2,7 @@
 // The table of observables.
 #include "observables/observables.h"
 
+#include "observables/begin.h"
 #include "observables/lags.h"
 
 #include <string.h>
@@ -38,4 +39,10 @@ Status observable_describe(const ObservableKind *kind, const Settings *settings,
     if (kind->describe) TRY(kind->describe(settings, system, lines));
     describe_waits(kind, settings, clock, lines);
     return OK;
+}
+
+Status observer_check_rest(const char *observable, const char *instead, const Clock *clock) {
+    if (!clock->drive || !(drive_kinds(clock->drive) & DRIVE_FLOW)) return OK;
+    return status_fail(BAD_DATA, "%s is of a stage at rest, and stage '%s' is sheared; take %s",
+                       observable, clock->stage, instead);
 }

@@ -119,7 +119,7 @@ static Status create(Observer **out, const Settings *settings, const State *stat
 static Status check(const Settings *settings_, const System *system, const Clock *clock) {
     const StructureSettings *settings = (const StructureSettings *)settings_->bytes;
     const Box box = system_box(system);
-    TRY(wave_vectors_check_rest("structure_factor", "planar_structure_factor", clock));
+    TRY(observer_check_rest("structure_factor", "planar_structure_factor", clock));
     const double least = wave_number_least(&box);
     TRY(wave_vectors_check("structure_factor", "wave_numbers.last", &box, settings->last));
     if (settings->last > least) return OK;

@@ -59,6 +59,7 @@ static Status check(const Settings *settings, const System *system, const Clock 
         return status_fail(BAD_DATA, "viscosity: Newtonian flight carries momentum that is not "
                                      "counted; use the method event-driven");
     }
+    TRY(observer_check_rest("viscosity", "stress or oscillatory_stress", clock));
     return lags_check("viscosity", lag_settings(settings), clock);
 }
 

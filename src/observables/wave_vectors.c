@@ -216,12 +216,6 @@ void wave_vectors_describe(const Box *box, const Shell *shells, size_t count, in
              (long long)most, fullest, option);
 }
 
-Status wave_vectors_check_rest(const char *observable, const char *instead, const Clock *clock) {
-    if (!clock->drive || !(drive_kinds(clock->drive) & DRIVE_FLOW)) return OK;
-    return status_fail(BAD_DATA, "%s is of a stage at rest, and stage '%s' is sheared; take %s",
-                       observable, clock->stage, instead);
-}
-
 Status wave_modes_make(WaveModes *modes, const WaveVectors *vectors, const State *state) {
     modes->species_count = state->system.species_count;
     modes->width = 2 * modes->species_count * vectors->count;

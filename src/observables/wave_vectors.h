@@ -55,10 +55,6 @@ Status wave_vectors_check(const char *observable, const char *option, const Box 
 void wave_vectors_describe(const Box *box, const Shell *shells, size_t count, int64_t most,
                            const char *option, Text *lines);
 
-// BAD_DATA with a sentence if the stage is sheared: shells of the lattice at rest do not stay
-// shells. `instead` says what to take.
-Status wave_vectors_check_rest(const char *observable, const char *instead, const Clock *clock);
-
 // The densities rho_a(q) of every species, modes[species][real, imaginary][vector].
 typedef struct WaveModes {
     DensityModes *density;

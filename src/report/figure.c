@@ -236,6 +236,28 @@ static void choose_curves(Figure *figure) {
     figure->left_out = all - most;
 }
 
+// Without a row of its own, an axis is logarithmic if its points spread out along it.
+static bool spreads_out(const ResultAxis *x) {
+    static const double SPREADS = 9; // last gap over first gap: a point per decade makes it 10
+    const double *at = x->values;
+    const size_t last = x->count - 1;
+    return at[0] > 0 && at[last] - at[last - 1] > SPREADS * (at[1] - at[0]);
+}
+
+static bool is_below_zero(const ResultAxis *x) {
+    bool below = false;
+    for (size_t i = 0; i < x->count; i++) below = below || x->values[i] < 0;
+    return below;
+}
+
+// Rates of flows backwards have no place on a logarithmic axis, and their stresses none either.
+static void choose_scales(Figure *figure) {
+    const FigureKind *kind = figure->kind;
+    const bool backwards = kind && kind->log_x && is_below_zero(figure->x);
+    figure->log_x = kind ? kind->log_x && !backwards : spreads_out(figure->x);
+    figure->log_y = kind && kind->log_y && !backwards;
+}
+
 // What a logarithmic axis shows of a curve: where it ends below zero, its negative.
 static bool ends_below_zero(const Figure *figure, size_t curve) {
     for (size_t point = figure->x->count; point-- > 0;) {
@@ -248,7 +270,7 @@ static bool ends_below_zero(const Figure *figure, size_t curve) {
 }
 
 static void choose_signs(Figure *figure) {
-    const bool positive = !figure->kind || !figure->kind->log_y || figure->line;
+    const bool positive = !figure->log_y || figure->line;
     for (size_t c = 0; !positive && c < figure->curve_count; c++) {
         figure->curve[c].negative = ends_below_zero(figure, c);
     }
@@ -317,6 +339,7 @@ Figure figure_of(const Results *results, const ResultSeries *series) {
     }
     name_files(figure.name, series);
     choose_curves(&figure);
+    choose_scales(&figure);
     choose_signs(&figure);
     if (figure.y) choose_picture(&figure);
     return figure;
@@ -371,7 +394,7 @@ bool figure_is_theory(const Figure *figure) { // stages of theories bear their s
 }
 
 bool figure_rests(const Figure *figure) {
-    return figure->kind && figure->kind->rest && figure->kind->log_x && figure->x->values[0] == 0;
+    return figure->kind && figure->kind->rest && figure->log_x && figure->x->values[0] == 0;
 }
 
 bool figure_is_dense(const Figure *figure) {

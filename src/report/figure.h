@@ -70,7 +70,8 @@ typedef struct Figure {
     const FigureKind *kind;                   // NULL for the plain rule
     char name[FIGURE_NAME];                   // of the files, without ending
     const ResultAxis *x;
-    size_t stride;       // elements from one point to the next along x
+    size_t stride; // elements from one point to the next along x
+    bool log_x, log_y;
     const ResultAxis *y; // of a picture whose colour is the value; NULL for curves
     size_t y_stride;
     bool sums_alone;    // curves of single species are left out: there would be too many

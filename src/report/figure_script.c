@@ -147,20 +147,11 @@ static void put_head(Text *script, const Figure *figure) {
     put_key(script, figure);
 }
 
-// Without a row of its own, an axis is logarithmic if its points spread out along it.
-static bool is_log_x(const Figure *figure) {
-    static const double SPREADS = 9; // last gap over first gap: a point per decade makes it 10
-    if (figure->kind) return figure->kind->log_x;
-    const double *x = figure->x->values;
-    const size_t last = figure->x->count - 1;
-    return x[0] > 0 && x[last] - x[last - 1] > SPREADS * (x[1] - x[0]);
-}
-
 static void put_y_scale(Text *script, const Figure *figure) {
     const FigureKind *kind = figure->kind;
     if (kind && kind->y_low < kind->y_high)
         text_add(script, "set format y '%%g'\nset yrange [%g:%g]\n", kind->y_low, kind->y_high);
-    else if (!kind || !kind->log_y)
+    else if (!figure->log_y)
         text_put(script, "set format y '%g'\n");
     else if (kind->y_least > 0)
         text_add(
@@ -175,7 +166,7 @@ static void put_y_scale(Text *script, const Figure *figure) {
 
 // Marks at the ends stand beside the frame, not on it.
 static void put_x_scale(Text *script, const Figure *figure) {
-    if (is_log_x(figure))
+    if (figure->log_x)
         text_put(script, "set logscale x\nset format x '10^{%T}'\n");
     else if (!figure_is_dense(figure))
         text_put(script, "set autoscale xfix\nset offsets graph 0.03, graph 0.03, 0, 0\n");
@@ -191,7 +182,7 @@ static void put_axes(Text *script, const Figure *figure) {
 // The lower edge of a band, the lower end of a bar. On a logarithmic axis a tenth of the value is
 // low enough: one as large as its error would otherwise take the axis down with it.
 static void put_lower(Text *script, const Figure *figure, const char *value, const char *error) {
-    if (figure->kind && figure->kind->log_y)
+    if (figure->log_y)
         text_add(script, "((%s) < 0.9*(%s) ? (%s) - (%s) : 0.1*(%s))", error, value, value, error,
                  value);
     else
@@ -283,7 +274,7 @@ typedef struct Span {
 
 static Span span_of(const Figure *figure) {
     const double *x = figure->x->values;
-    const bool is_log = is_log_x(figure);
+    const bool is_log = figure->log_x;
     Span span = {.end = x[figure->x->count - 1]};
     while (is_log && span.first + 1 < figure->x->count && x[span.first] <= 0) span.first++;
     span.begin = x[span.first];

@@ -38,7 +38,7 @@ static bool has_errors(const Passes *passes, size_t element) {
 }
 
 // Of one group. What has no error stands in the first place alone, as of all samples.
-static void pseudo_values(const Passes *passes, size_t group, double *out) {
+static void values_of_group(const Passes *passes, size_t group, double *out) {
     const double *whole = passes->values[0], *without = passes->values[group + 1];
     for (size_t i = 0; i < passes->size; i++) {
         if (!passes->certain && has_errors(passes, i))
@@ -67,7 +67,7 @@ static Status put_series(Results *results, const ResultSeries *shape, const Pass
     TRY(NEW_ARRAY(values, passes->size));
     Status status = OK;
     for (size_t g = 0; g < passes->groups && status == OK; g++) {
-        pseudo_values(passes, g, values);
+        values_of_group(passes, g, values);
         status = results_put_series(results, shape, g, values);
     }
     memory_free(values);
@@ -99,7 +99,7 @@ static Status combine_scalars(Results *results, Results *const *from, Passes *pa
         passes->certain = is_certain(passes);
         for (size_t g = 0; g < passes->groups; g++) {
             double value;
-            pseudo_values(passes, g, &value);
+            values_of_group(passes, g, &value);
             TRY(results_put_scalar(results, whole->stage, whole->quantity, whole->unit,
                                    whole->about, g, value));
         }

@@ -33,6 +33,11 @@ static double slow(double t, double scale) {
     return 0.3 * exp(-t / 0.01) + 0.7 * exp(-pow(t / (3000 * scale), 0.6));
 }
 
+// It is 1/e at the last lag of WIDE, or in some replicas beyond.
+static double just(double t, double scale) {
+    return exp(-t / (1030 * scale));
+}
+
 // Lags from `first` on, so many to a factor of ten.
 typedef struct Grid {
     double first, per_decade;
@@ -164,6 +169,26 @@ START_TEST(what_has_not_relaxed_has_no_time) {
 }
 END_TEST
 
+// The mean of all replicas falls to 1/e, that without some of them does not: what the others tell
+// of is not the mean of all.
+START_TEST(a_time_that_some_replicas_lack_is_not_told) {
+    static const char *const numbers[] = {"relaxation_time", "scaled"};
+    static const size_t sizes[] = {1, 51};
+    Results *results = decays(just, 0.1, 0);
+    const ResultSeries *series = series_of(results, "quiescent", "self_scattering");
+    double last = 0;
+    for (size_t r = 0; r < REPLICAS; r++)
+        last += series->values[r * series->size + LAGS - 1] / REPLICAS;
+    ck_assert_double_lt(last, exp(-1));
+    for (size_t n = 0; n < 2; n++) {
+        const size_t at = sizes[n] * 2 / 3; // of scaled: 0.25 tau
+        ck_assert_uint_eq(found(results, numbers[n], at).n, 0);
+        ck_assert_uint_eq(found(results, numbers[n], sizes[n] + at).n, REPLICAS);
+    }
+    results_free(results);
+}
+END_TEST
+
 // It falls to a half within the lags, so that a fit there is, and has numbers.
 START_TEST(a_law_beyond_the_lags_is_not_told) {
     static const char *const numbers[] = {"kohlrausch_amplitude", "kohlrausch_time",
@@ -242,6 +267,7 @@ int main(void) {
     tcase_add_test(c, a_free_particle_decays_exponentially);
     tcase_add_test(c, errors_are_those_of_the_replicas);
     tcase_add_test(c, what_has_not_relaxed_has_no_time);
+    tcase_add_test(c, a_time_that_some_replicas_lack_is_not_told);
     tcase_add_test(c, a_law_beyond_the_lags_is_not_told);
     tcase_add_test(c, a_factor_of_time_is_found);
     tcase_add_test(c, times_are_compared_at_the_same_wave_number_only);

@@ -762,6 +762,28 @@ START_TEST(a_logarithmic_axis_shows_the_negative_of_what_ends_below_zero) {
 }
 END_TEST
 
+// Nor has the rate of a flow backwards a place on one.
+START_TEST(flows_both_ways_are_drawn_on_plain_axes) {
+    for (int backwards = 0; backwards < 2; backwards++) {
+        const double rates[] = {backwards ? -1 : 0.1, 1}, stresses[] = {backwards ? -2 : 0.2, 2};
+        const ResultSeries shape = {
+            .stage = "flow",
+            .observable = "shear_stress",
+            .unit = "kT/d^2",
+            .axes = 1,
+            .axis = {{.name = "shear_rate", .unit = "", .count = 2, .values = rates}}};
+        Results *results = NULL;
+        ck_assert_int_eq(results_create(&results, 1), OK);
+        results_put_series(results, &shape, 0, stresses);
+        Text script = script_of(results);
+        ck_assert_int_eq(strstr(text_words(&script), "set logscale x") == NULL, backwards);
+        ck_assert_int_eq(strstr(text_words(&script), "set logscale y") == NULL, backwards);
+        text_free(&script);
+        results_free(results);
+    }
+}
+END_TEST
+
 START_TEST(noise_without_an_error_is_not_drawn_where_noise_is_not) {
     Results *results = displacements_in_a_flow("non_affine_displacement_exponent");
     Text script = script_of(results);
@@ -914,6 +936,7 @@ int main(void) {
     tcase_add_test(tests, of_too_many_curves_those_of_all_species_from_first_to_last_are_drawn);
     tcase_add_test(tests, many_names_stand_below_two_panels_and_not_on_them);
     tcase_add_test(tests, a_logarithmic_axis_shows_the_negative_of_what_ends_below_zero);
+    tcase_add_test(tests, flows_both_ways_are_drawn_on_plain_axes);
     tcase_add_test(tests, noise_without_an_error_is_not_drawn_where_noise_is_not);
     tcase_add_test(tests, lags_over_decades_are_drawn_over_decades);
     tcase_add_test(tests, rates_over_decades_are_drawn_over_decades);

@@ -115,6 +115,27 @@ START_TEST(no_transition_is_seen_where_there_is_none) {
 }
 END_TEST
 
+// A flow makes a glass relax: what comes of that says nothing of the transition.
+START_TEST(no_transition_is_told_of_a_flow) {
+    static double tau[REPLICAS][STATES][ROWS], rate[REPLICAS][STATES][ROWS];
+    for (size_t r = 0; r < REPLICAS; r++) {
+        for (int s = 0; s < STATES; s++) {
+            for (int row = 0; row < ROWS; row++) {
+                tau[r][s][row] = pow(CRITICAL - packing[s], -GAMMA);
+                rate[r][s][row] = 0.1;
+            }
+        }
+    }
+    Results *results = new_results();
+    put(results, "self_scattering_relaxation_time", tau, packing);
+    put(results, "shear_rate", rate, packing);
+    const size_t given = results->series_count;
+    ck_assert_int_eq(analysis_derive_sweep(results), OK);
+    ck_assert_uint_eq(results->series_count, given);
+    results_free(results);
+}
+END_TEST
+
 // Where the plateau is below 1/e the function falls to it before its last decay.
 START_TEST(times_before_the_plateau_are_left_alone) {
     static double tau[REPLICAS][STATES][ROWS], plateau[REPLICAS][STATES][ROWS];
@@ -268,6 +289,7 @@ int main(void) {
     tcase_add_test(c, a_power_law_is_found);
     tcase_add_test(c, errors_are_what_they_say);
     tcase_add_test(c, no_transition_is_seen_where_there_is_none);
+    tcase_add_test(c, no_transition_is_told_of_a_flow);
     tcase_add_test(c, times_before_the_plateau_are_left_alone);
     tcase_add_test(c, plateaus_of_a_glass_rise_as_a_square_root);
     tcase_add_test(c, one_master_curve_has_no_spread);
