@@ -75,7 +75,24 @@ static void herschel_bulkley(const States *states, double *out) {
         out[GIVEN + e] = enough ? line_at(exponent_of(e), &stresses).intercept : (double)NAN;
 }
 
+// Whether the rates along the axis are those of the stage, and not of another that is swept: its
+// viscosity is the stress over its own.
+static bool is_of_its_rates(const Sweep *sweep) {
+    const ResultSeries *stress = &sweep->series;
+    const ResultSeries *viscosity =
+        results_find_series(sweep->results, stress->stage, "shear_viscosity");
+    if (!viscosity || viscosity->size != stress->size) return false;
+    const ResultAxis *axis = &stress->axis[sweep->axis];
+    for (size_t e = 0; e < stress->size; e++) {
+        const double rate = axis->values[e / sweep->inner % axis->count];
+        const double off = viscosity->values[e] * rate - stress->values[e];
+        if (fabs(off) > 1e-9 * fabs(stress->values[e])) return false;
+    }
+    return true;
+}
+
 Status derive_flow_curve(Results *results, Sweep *sweep) {
+    if (!is_of_its_rates(sweep)) return OK;
     double exponents[EXPONENTS];
     for (size_t e = 0; e < EXPONENTS; e++) exponents[e] = exponent_of(e);
     char unit[RESULT_NAME];

@@ -236,18 +236,20 @@ static void choose_curves(Figure *figure) {
     figure->left_out = all - most;
 }
 
-// Without a row of its own, an axis is logarithmic if its points spread out along it.
-static bool spreads_out(const ResultAxis *x) {
-    static const double SPREADS = 9; // last gap over first gap: a point per decade makes it 10
-    const double *at = x->values;
-    const size_t last = x->count - 1;
-    return at[0] > 0 && at[last] - at[last - 1] > SPREADS * (at[1] - at[0]);
-}
-
 static bool is_below_zero(const ResultAxis *x) {
     bool below = false;
     for (size_t i = 0; i < x->count; i++) below = below || x->values[i] < 0;
     return below;
+}
+
+// Without a row of its own, an axis is logarithmic if its points spread out along it, either way.
+static bool spreads_out(const ResultAxis *x) {
+    static const double SPREADS = 9; // gap over gap: a point per decade makes it 10
+    const double *at = x->values;
+    const size_t last = x->count - 1;
+    const double one = fabs(at[1] - at[0]), other = fabs(at[last] - at[last - 1]);
+    return at[0] > 0 && at[last] > 0 && !is_below_zero(x) &&
+           fmax(one, other) > SPREADS * fmin(one, other);
 }
 
 // Rates of flows backwards have no place on a logarithmic axis, and their stresses none either.

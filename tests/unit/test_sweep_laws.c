@@ -218,15 +218,16 @@ START_TEST(one_master_curve_has_no_spread) {
 }
 END_TEST
 
-// A liquid without and a glass with a yield stress; `noise` in stress.
-static Results *flow_curves(double noise) {
+// A liquid without and a glass with a yield stress; `noise` in stress. Unless the rates are the
+// stage's `own`, those of another stage are swept, and its own is 0.1.
+static Results *flow_curves(double noise, bool own) {
     enum { GLASSES = 2, RATES = 6 };
     static const double phi[GLASSES] = {0.70, 0.80}, yield[GLASSES] = {0, 0.3},
                         exponent[GLASSES] = {1, 0.45};
     static const double rates[RATES] = {0.001, 0.01, 0.05, 0.2, 1, 5};
     Results *results = new_results();
     Rng rng = rng_open((RngKey){.seed = 6}, STREAM_PACKING, 0, 0);
-    const ResultSeries shape = {
+    ResultSeries shape = {
         .stage = "flow",
         .observable = "shear_stress",
         .unit = "kT/d^2",
@@ -234,14 +235,18 @@ static Results *flow_curves(double noise) {
         .axis = {{.name = "packing_fraction", .unit = "", .count = GLASSES, .values = phi},
                  {.name = "shear_rate", .unit = "D0/d^2", .count = RATES, .values = rates}}};
     for (size_t r = 0; r < REPLICAS; r++) {
-        double stress[GLASSES][RATES];
+        double stress[GLASSES][RATES], viscosity[GLASSES][RATES];
         for (int s = 0; s < GLASSES; s++) {
             for (int k = 0; k < RATES; k++) {
                 stress[s][k] = yield[s] + 2 * pow(rates[k], exponent[s]);
                 stress[s][k] += noise * rng_normal(&rng);
+                viscosity[s][k] = stress[s][k] / (own ? rates[k] : 0.1);
             }
         }
+        strcpy(shape.observable, "shear_stress");
         ck_assert_int_eq(results_put_series(results, &shape, r, &stress[0][0]), OK);
+        strcpy(shape.observable, "shear_viscosity");
+        ck_assert_int_eq(results_put_series(results, &shape, r, &viscosity[0][0]), OK);
     }
     ck_assert_int_eq(analysis_derive_sweep(results), OK);
     return results;
@@ -252,7 +257,7 @@ static Estimate flow_found(const Results *results, const char *quantity, size_t 
 }
 
 START_TEST(a_yield_stress_is_found_and_its_absence) {
-    Results *results = flow_curves(1e-9);
+    Results *results = flow_curves(1e-9, true);
     ck_assert_double_eq_tol(flow_found(results, "yield_stress", 0).value, 0, 1e-6);
     ck_assert_double_eq_tol(flow_found(results, "yield_stress", 1).value, 0.3, 1e-6);
     ck_assert_double_eq_tol(flow_found(results, "flow_curve_amplitude", 1).value, 2, 1e-6);
@@ -273,11 +278,18 @@ START_TEST(a_yield_stress_is_found_and_its_absence) {
 END_TEST
 
 START_TEST(a_yield_stress_has_the_error_it_says) {
-    Results *results = flow_curves(0.02);
+    Results *results = flow_curves(0.02, true);
     const Estimate yield = flow_found(results, "yield_stress", 1);
     ck_assert_double_gt(yield.error, 0.004); // that of a single stress is 0.007
     ck_assert_double_lt(yield.error, 0.04);
     ck_assert_double_eq_tol(yield.value, 0.3, 4 * yield.error);
+    results_free(results);
+}
+END_TEST
+
+START_TEST(no_yield_stress_is_told_by_the_rates_of_another_stage) {
+    Results *results = flow_curves(1e-9, false);
+    ck_assert_uint_eq(results->series_count, 2);
     results_free(results);
 }
 END_TEST
@@ -295,6 +307,7 @@ int main(void) {
     tcase_add_test(c, one_master_curve_has_no_spread);
     tcase_add_test(c, a_yield_stress_is_found_and_its_absence);
     tcase_add_test(c, a_yield_stress_has_the_error_it_says);
+    tcase_add_test(c, no_yield_stress_is_told_by_the_rates_of_another_stage);
     suite_add_tcase(suite, c);
     return run_suite(suite);
 }
