@@ -85,11 +85,23 @@ static void shape_part(ResultSeries *shape, const Sweep *sweep, const char *endi
     for (size_t a = 0; a < part->axes; a++) shape->axis[shape->axes++] = part->axis[a];
 }
 
+// Of the other keys of the sweep none may have the name of an axis of the part, such as an
+// exponent.
+static bool fits(const Sweep *sweep, const Part *part) {
+    if (sweep->series.axes - 1 + part->axes > RESULT_AXES) return false;
+    for (size_t a = 0; a < sweep->series.axes; a++) {
+        for (size_t b = 0; b < part->axes && a != sweep->axis; b++) {
+            if (strcmp(sweep->series.axis[a].name, part->axis[b].name) == 0) return false;
+        }
+    }
+    return true;
+}
+
 static Status put_part(Results *results, const Sweep *sweep, const char *ending, const Part *part) {
     ResultSeries shape;
     double *some = NULL;
     const size_t size = part_size(part);
-    if (sweep->series.axes - 1 + part->axes > RESULT_AXES) return OK; // it has no room
+    if (!fits(sweep, part)) return OK;
     shape_part(&shape, sweep, ending, part);
     TRY(NEW_ARRAY(some, sweep->rows * size));
     Status status = OK;

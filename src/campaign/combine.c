@@ -22,8 +22,27 @@ static void free_axes(Axes *axes) {
     }
 }
 
-static Status axis_of(const SweepKey *key, ResultAxis *axis) {
-    *axis = (ResultAxis){.name = key->name, .unit = "", .count = key->count};
+static bool has_axis(const ResultSeries *series, const char *name) {
+    bool has = false;
+    for (size_t a = 0; a < series->axes; a++) has = has || strcmp(series->axis[a].name, name) == 0;
+    return has;
+}
+
+// The whole key where its last word is the name of an axis of a series already, as `time` is. All
+// points have it as the first.
+static const char *name_of(const ConfigPoints *points, size_t k, const Results *all,
+                           const Results *one) {
+    const SweepKey *key = config_sweep_key(points, k);
+    if (all->series_count > 0)
+        return strcmp(all->series[0].axis[k].name, key->path) == 0 ? key->path : key->name;
+    bool taken = false;
+    for (size_t i = 0; i < one->series_count; i++)
+        taken = taken || has_axis(&one->series[i], key->name);
+    return taken ? key->path : key->name;
+}
+
+static Status axis_of(const SweepKey *key, const char *name, ResultAxis *axis) {
+    *axis = (ResultAxis){.name = name, .unit = "", .count = key->count};
     double *values = NULL;
     const char **labels = NULL;
     if (key->numbers) {
@@ -38,10 +57,12 @@ static Status axis_of(const SweepKey *key, ResultAxis *axis) {
     return OK;
 }
 
-static Status make_axes(Axes *axes, const ConfigPoints *points) {
+static Status make_axes(Axes *axes, const ConfigPoints *points, const Results *all,
+                        const Results *one) {
     *axes = (Axes){.size = config_point_count(points)};
     for (size_t k = 0; k < config_sweep_keys(points); k++) {
-        TRY(axis_of(config_sweep_key(points, k), &axes->axis[k]));
+        const char *name = name_of(points, k, all, one);
+        TRY(axis_of(config_sweep_key(points, k), name, &axes->axis[k]));
         axes->count++;
     }
     return OK;
@@ -81,11 +102,15 @@ static bool same_axis(const ResultAxis *a, const ResultAxis *b) {
     return true;
 }
 
-// The axes of the sweep, then those of the series. False if they are too many, or not those that
-// the first point had: what each point measures at places of its own cannot stand side by side.
+// The axes of the sweep, then those of the series. False if they are too many, or two have one
+// name, or they are not those that the first point had: what each point measures at places of its
+// own cannot stand side by side.
 static bool shape_series(ResultSeries *shape, const Results *all, const Axes *axes,
                          const ResultSeries *series) {
     if (axes->count + series->axes > RESULT_AXES) return false;
+    for (size_t k = 0; k < axes->count; k++) {
+        if (has_axis(series, axes->axis[k].name)) return false;
+    }
     const ResultSeries *there = results_find_series(all, series->stage, series->observable);
     if (there && there->axes != axes->count + series->axes) return false;
     *shape = *series;
@@ -144,7 +169,7 @@ static Status put_health(Results *all, const Results *one) {
 
 Status combine_point(Results *all, const ConfigPoints *points, size_t point, const Results *one) {
     Axes axes;
-    Status status = make_axes(&axes, points);
+    Status status = make_axes(&axes, points, all, one);
     if (status == OK) status = put_scalars(all, &axes, point, one);
     for (size_t i = 0; i < one->series_count && status == OK; i++) {
         status = put_series(all, &axes, point, one, &one->series[i]);

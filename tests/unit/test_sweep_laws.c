@@ -287,6 +287,30 @@ START_TEST(a_yield_stress_has_the_error_it_says) {
 }
 END_TEST
 
+// A swept exponent, of soft spheres for one, beside the given ones of the law.
+START_TEST(a_swept_exponent_is_not_that_of_a_law) {
+    static const double exponents[] = {12, 36};
+    double tau[2][STATES];
+    Results *results = new_results();
+    const ResultSeries shape = {
+        .stage = "quiescent",
+        .observable = "self_scattering_relaxation_time",
+        .axes = 2,
+        .axis = {{.name = "exponent", .unit = "", .count = 2, .values = exponents},
+                 {.name = "packing_fraction", .unit = "", .count = STATES, .values = packing}}};
+    for (int s = 0; s < STATES; s++) tau[0][s] = tau[1][s] = pow(CRITICAL - packing[s], -GAMMA);
+    for (size_t r = 0; r < REPLICAS; r++)
+        ck_assert_int_eq(results_put_series(results, &shape, r, &tau[0][0]), OK);
+    ck_assert_int_eq(analysis_derive_sweep(results), OK);
+    const ResultSeries *found_at =
+        series_of(results, "quiescent", "self_scattering_critical_exponent");
+    ck_assert_double_eq_tol(results_series_estimate(results, found_at, 1).value, GAMMA, 1e-3);
+    ck_assert_ptr_null(
+        results_find_series(results, "quiescent", "self_scattering_critical_packing_fraction_at"));
+    results_free(results);
+}
+END_TEST
+
 START_TEST(no_yield_stress_is_told_by_the_rates_of_another_stage) {
     Results *results = flow_curves(1e-9, false);
     ck_assert_uint_eq(results->series_count, 2);
@@ -307,6 +331,7 @@ int main(void) {
     tcase_add_test(c, one_master_curve_has_no_spread);
     tcase_add_test(c, a_yield_stress_is_found_and_its_absence);
     tcase_add_test(c, a_yield_stress_has_the_error_it_says);
+    tcase_add_test(c, a_swept_exponent_is_not_that_of_a_law);
     tcase_add_test(c, no_yield_stress_is_told_by_the_rates_of_another_stage);
     suite_add_tcase(suite, c);
     return run_suite(suite);
