@@ -224,18 +224,18 @@ expect "what could not be laid side by side is named" \
     sh -c "'$perrin' show flow | grep '^not side by side, .*: flow/stress\$'"
 expect "and on the page" grep -q 'not side by side.*flow/stress' flow/report.html
 expect "under the figure, too" grep -q 'Only of points of the sweep' flow/report.html
-# How long it waits is swept, and the stress has an axis of time, too.
+# How long it waits is swept, and the stress has an axis of time, too; and its replicas are called so.
 sed -e '/^protocol/,$d' small.yaml > age.yaml
 cat >> age.yaml << 'END'
 protocol:
   - {stage: rest, time: 0.1}
   - {stage: later, time: 0.1, observe: [stress]}
 ensemble: {replicas: 2}
-sweep: {protocol.rest.time: [0.1, 0.2]}
+sweep: {protocol.rest.time: [0.1, 0.2], ensemble.replicas: [2, 3]}
 END
 "$perrin" run dense.yaml --quiet --threads 1 && "$perrin" run age.yaml --quiet --threads 1 || exit 1
 expect "of a key that a series has as an axis the whole is said" \
-    sh -c "'$perrin' show age | grep -q '^later/stress  *protocol.rest.time (2) x stress ([34]) x time ('"
+    sh -c "'$perrin' show age | grep -q '^later/stress  *protocol.rest.time (2) x ensemble.replicas (2) x stress ([34]) x time ('"
 expect "a number that all points have is told as such" lacks 'not side by side' dense/report.html
 expect "and its figure says nothing else" lacks 'Only of points of the sweep' dense/report.html
 expect "rates from a file are those that they say" \
