@@ -265,7 +265,7 @@ Status derive_transient(Results *results, const ResultSeries *sheared) {
         .rows = sheared->size / (waits * time->count),
         .curves = {.lags = time->count,
                    .times = time->values,
-                   .differences = strcmp(sheared->observable, "non_affine_displacement") == 0}};
+                   .differences = strstr(sheared->observable, "displacement") != NULL}};
     double *room[4] = {NULL, NULL, NULL, NULL};
     Status status = allocate(&relation, room);
     for (size_t i = 0; status == OK && i < relation.rows * waits; i++) {

@@ -51,7 +51,7 @@ static const char *name_of(const ConfigPoints *points, size_t k, const Results *
 }
 
 static Status axis_of(const SweepKey *key, const char *name, ResultAxis *axis) {
-    *axis = (ResultAxis){.name = name, .unit = "", .count = key->count};
+    *axis = (ResultAxis){.name = name, .unit = key->unit, .count = key->count};
     double *values = NULL;
     const char **labels = NULL;
     if (key->numbers) {

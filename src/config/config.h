@@ -29,6 +29,7 @@ Status config_read_text(Plan **out, const char *name, const char *text, size_t l
 typedef struct SweepKey {
     char path[OPTION_TEXT_SIZE]; // "system.packing_fraction"
     const char *name;            // its last word, or the whole where two keys end alike
+    const char *unit;            // "" for a pure number
     bool numbers;                // all words are numbers
     size_t count;
     char (*words)[OPTION_TEXT_SIZE];

@@ -165,6 +165,30 @@ bool section_of_key(const char *key, const OptionTable *table, char home[SECTION
     return false;
 }
 
+// "system.species.NAME" leads to all keys of all species.
+static bool leads_to(const Section *section, const char *path) {
+    const char *any_name = strstr(section->path, ".NAME");
+    const size_t length = any_name ? (size_t)(any_name - section->path) : strlen(section->path);
+    return length > 0 && strncmp(path, section->path, length) == 0 && path[length] == '.';
+}
+
+static bool ends_with_key(const char *path, const char *key) {
+    const size_t length = strlen(path), end = strlen(key);
+    return end < length && path[length - end - 1] == '.' && strcmp(path + length - end, key) == 0;
+}
+
+const char *section_unit(const char *path) {
+    for (size_t i = 0; i < section_count(); i++) {
+        const Section section = section_at(i);
+        if (!section.table || !leads_to(&section, path)) continue;
+        for (size_t k = 0; k < section.table->count; k++) {
+            if (ends_with_key(path, section.table->rows[k].name))
+                return section.table->rows[k].unit;
+        }
+    }
+    return "";
+}
+
 static const struct {
     const char *word;
     const char *sentence;

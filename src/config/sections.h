@@ -33,6 +33,9 @@ Section section_at(size_t index);
 // of the same name, and none was meant.
 bool section_of_key(const char *key, const OptionTable *table, char home[SECTION_HOME_SIZE]);
 
+// The unit of the key at a path, "protocol.flow.shear_rate"; "" for a pure number or no key.
+const char *section_unit(const char *path);
+
 // What to say to a word of other engines, drives and theories that this version does not have, and
 // to a word by which other programs call what is called otherwise here; NULL for any other word.
 const char *section_hint(const char *word);

@@ -114,6 +114,7 @@ static void name_keys(Sweep *sweep) {
     for (size_t k = 0; k < sweep->keys; k++) {
         SweepKey *key = &sweep->key[k];
         key->name = strrchr(key->path, '.') + 1;
+        key->unit = section_unit(key->path);
         for (size_t other = 0; other < sweep->keys; other++) {
             const char *last = strrchr(sweep->key[other].path, '.') + 1;
             if (other != k && strcmp(last, strrchr(key->path, '.') + 1) == 0) key->name = key->path;

@@ -222,6 +222,7 @@ END
 "$perrin" run flow.yaml --quiet --threads 1 && "$perrin" run ramp.yaml --quiet --threads 1 || exit 1
 expect "what could not be laid side by side is named" \
     sh -c "'$perrin' show flow | grep '^not side by side, .*: flow/stress\$'"
+expect "what is swept has its unit" sh -c "'$perrin' show flow | grep -qF 'shear_rate [D0/d^2]'"
 expect "and on the page" grep -q 'not side by side.*flow/stress' flow/report.html
 expect "under the figure, too" grep -q 'Only of points of the sweep' flow/report.html
 # How long it waits is swept, and the stress has an axis of time, too; and its replicas are called so.
