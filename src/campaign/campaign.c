@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/seconds.h"
 #include "base/text.h"
+#include "base/version.h"
 #include "campaign/combine.h"
 #include "report/report.h"
 #include "session/provenance.h"
@@ -104,23 +105,38 @@ static Status read_finished(Results **out, const char *folder) {
 }
 
 // The same plan has been run to its end there, with what the files that it reads hold now.
-static bool is_finished(const Plan *plan, const char *folder) {
-    Results *results = NULL;
+static bool is_of_now(const Plan *plan, const Results *results) {
     char *text = NULL;
     uint32_t checksum;
-    if (read_finished(&results, folder) != OK) return false;
     const char *plan_there = results_find_fact(results, "plan");
     const bool same = plan_there && config_write(plan, &text) == OK && !strcmp(text, plan_there);
     const bool healthy = !results_broken_limit(results);
-    const bool fits =
-        plan_check_input(plan, &checksum) == OK && plan_has_checksum(results, checksum);
     memory_free(text);
-    results_free(results);
-    return same && healthy && fits;
+    return same && healthy && plan_check_input(plan, &checksum) == OK &&
+           plan_has_checksum(results, checksum);
+}
+
+// A simulation alone goes on from its last checkpoint, and what is derived of it is derived anew; a
+// theory has none when it has ended, and is done again by another program only.
+static bool may_stand(const Campaign *campaign, const Plan *plan, const Results *results) {
+    if (campaign->store) return true;
+    const char *commit = results_find_fact(results, "commit");
+    return plan_is_theory(plan) && commit && strcmp(commit, version_commit()) == 0;
+}
+
+static bool is_finished(Campaign *campaign, const Plan *plan, const char *folder) {
+    Results *results = NULL;
+    if (read_finished(&results, folder) != OK) return false;
+    const bool finished = may_stand(campaign, plan, results) && is_of_now(plan, results);
+    if (finished && !campaign->store)
+        campaign->results = results;
+    else
+        results_free(results);
+    return finished;
 }
 
 static Status open_session(Campaign *campaign, Point *point, const char *folder) {
-    if (campaign->store && is_finished(point->plan, folder)) return OK;
+    if (is_finished(campaign, point->plan, folder)) return OK;
     SessionWishes wishes = campaign->wishes;
     wishes.directory = folder;
     return session_open(&point->session, point->plan, &wishes);
@@ -200,7 +216,7 @@ Status campaign_open(Campaign **out, const ConfigPoints *points, const SessionWi
             status = status_fail(campaign->failure, "%s", campaign->sentence);
     }
     if (status == OK && !campaign->store)
-        campaign->resumes = session_resumes(campaign->point[0].session);
+        campaign->resumes = campaign->results || session_resumes(campaign->point[0].session);
     if (status == OK)
         *out = campaign;
     else

@@ -87,6 +87,11 @@ expect "which check says" sh -c "'$perrin' check single.yaml | grep -q 'all is d
 rm -r fluid && "$perrin" rerun one/results.h5 --quiet -o fluid || exit 1
 expect "the files differ" sh -c '! cmp -s one/results.h5 fluid/results.h5'
 points=$(cksum sweep/*=*/results.h5)
+one=$(cksum single/*)
+run single single
+expect "a single run is left alone" test "$one" = "$(cksum single/*)"
+expect "what it has is told" sh -c \
+    "'$perrin' run single.yaml --threads 1 -o single 2>&1 | grep -q 'perrin show single'"
 run sweep sweep
 expect "points with the same structure are left alone" quiet
 expect "to the byte" test "$points" = "$(cksum sweep/*=*/results.h5)"
