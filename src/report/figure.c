@@ -415,6 +415,13 @@ static void put_places(Text *text, const Figure *figure) {
     text_free(&places);
 }
 
+// What this run says of the number behind the line, where it is not what such numbers are said to
+// be: that it is a bound.
+static void put_level(Text *text, const ResultScalar *level) {
+    const ResultMeaning *meaning = result_meaning(level->quantity);
+    if (meaning && strcmp(level->about, meaning->about) != 0) text_add(text, " %s", level->about);
+}
+
 void figure_caption(Text *text, const Figure *figure) {
     const Results *results = figure->results;
     const FigureKind *kind = figure->kind;
@@ -423,6 +430,7 @@ void figure_caption(Text *text, const Figure *figure) {
     put_places(text, figure);
     if ((figure->line || figure->level || figure->limit[0]) && kind->about_line)
         text_add(text, " %s", kind->about_line);
+    if (figure->level) put_level(text, figure->level);
     const char *shown = figure_is_dense(figure) ? "bands" : "bars";
     if (figure_is_theory(figure)) {
         if (figure_has_errors(figure) && !figure->y)

@@ -597,6 +597,32 @@ START_TEST(friction_at_rest_is_a_level_where_forces_are_weak) {
 }
 END_TEST
 
+// A viscosity whose slope has not settled is a bound: the caption says so.
+START_TEST(a_bound_behind_a_line_is_told) {
+    const double times[] = {1, 2, 4}, values[] = {0.1, 0.2, 0.3};
+    for (int bound = 0; bound < 2; bound++) {
+        Results *results = NULL;
+        Text caption = {0};
+        ck_assert_int_eq(results_create(&results, 1), OK);
+        const ResultSeries shape = {
+            .stage = "rest",
+            .observable = "viscosity",
+            .unit = "kT/D0",
+            .axes = 1,
+            .axis = {{.name = "time", .unit = "d^2/D0", .count = 3, .values = times}}};
+        results_put_series(results, &shape, 0, values);
+        results_put_scalar(results, "rest", "zero_shear_viscosity", "kT/D0",
+                           bound ? "Lower bound." : NULL, 0, 0.3);
+        const Figure figure = figure_of(results, &results->series[0]);
+        figure_caption(&caption, &figure);
+        ck_assert_ptr_nonnull(strstr(text_words(&caption), "Dashed: its value at long times."));
+        ck_assert_int_eq(strstr(text_words(&caption), "times. Lower bound. ") != NULL, bound);
+        text_free(&caption);
+        results_free(results);
+    }
+}
+END_TEST
+
 // Three rounds at four forces: against cycles, although there are more forces.
 START_TEST(the_tracers_step_is_drawn_against_cycles) {
     Results *results = NULL;
@@ -933,6 +959,7 @@ int main(void) {
     tcase_add_test(tests, a_figure_of_a_sweep_says_which_points_it_lacks);
     tcase_add_test(tests, a_limit_is_drawn_over_its_half_of_the_axis);
     tcase_add_test(tests, friction_at_rest_is_a_level_where_forces_are_weak);
+    tcase_add_test(tests, a_bound_behind_a_line_is_told);
     tcase_add_test(tests, the_tracers_step_is_drawn_against_cycles);
     tcase_add_test(tests, of_several_pictures_the_furthest_is_drawn_and_told);
     tcase_add_test(tests, of_too_many_curves_those_of_all_species_from_first_to_last_are_drawn);
