@@ -69,7 +69,7 @@ int perrin_results_at(const perrin_results *results, size_t index, perrin_quanti
 /** The quantity of that name, as in "quiescent/long_time_diffusion". */
 int perrin_results_find(const perrin_results *results, const char *name, perrin_quantity *out);
 
-enum { PERRIN_AXES_MOST = 5 };
+enum { PERRIN_AXES_MOST = 8 };
 
 /** An array over axes, as in "quiescent/mean_squared_displacement". Row-major: the last axis runs
  * fastest. */

@@ -10,7 +10,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { RESULT_NAME = 64, RESULT_TEXT = 256, RESULT_AXES = 5 };
+// Axes: five of an observable, three of a sweep.
+enum { RESULT_NAME = 64, RESULT_TEXT = 256, RESULT_AXES = 8 };
 
 typedef struct ResultAxis {
     const char *name; // "time", "species", "wave_number"

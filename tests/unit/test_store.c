@@ -318,7 +318,7 @@ static void write_results(Store *store) {
 START_TEST(all_axes_come_back) {
     enum { SIZE = 1 << RESULT_AXES };
     static const double two[2] = {1, 2};
-    static const char *const names[RESULT_AXES] = {"a", "b", "c", "d", "e"};
+    static const char *const names[RESULT_AXES] = {"a", "b", "c", "d", "e", "f", "g", "h"};
     double values[SIZE];
     ResultSeries shape = {.stage = "stage", .observable = "cube", .axes = RESULT_AXES};
     for (size_t a = 0; a < RESULT_AXES; a++)
