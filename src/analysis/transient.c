@@ -253,7 +253,8 @@ Status derive_transient(Results *results, const ResultSeries *sheared) {
     if (!begins_with_the_transient(sheared)) return OK;
     const ResultSeries *rest = quiescent_of(results, sheared);
     const ResultScalar *rate = results_find_scalar(results, sheared->stage, "shear_rate");
-    if (!rest || !rate) return OK;
+    if (!rest || !rate || results_find_scalar(results, sheared->stage, "shear_rate_before"))
+        return OK;
     const ResultAxis *time = &sheared->axis[sheared->axes - 1];
     const size_t waits = sheared->axis[sheared->axes - 2].count;
     Relation relation = {

@@ -21,6 +21,7 @@ typedef struct Clock {
     bool flies;         // there are velocities and collisions
     bool thermostatted; // velocities are redrawn: positions diffuse
     const Drive *drive; // of the stage, borrowed; NULL: at rest
+    const Flow *before; // of the stage before, which this one goes on from; NULL: at rest
     bool whole_steps;   // there are configurations at whole steps only: those of a trajectory
 } Clock;
 

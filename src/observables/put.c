@@ -23,6 +23,9 @@ Status observer_put_scalar(const Observer *observer, const char *quantity, const
 Status observer_put_shear_rate(const Observer *observer, Results *results, size_t replica) {
     const Drive *drive = observer->clock.drive;
     if (!drive || !(drive_kinds(drive) & DRIVE_FLOW)) return OK;
+    if (observer->clock.before)
+        TRY(observer_put_scalar(observer, "shear_rate_before", "D0/d^2", NULL, results, replica,
+                                flow_fastest(observer->clock.before)));
     if (drive->flow.rate == 0)
         return observer_put_scalar(observer, "largest_shear_rate", "D0/d^2", NULL, results, replica,
                                    flow_fastest(&drive->flow));

@@ -74,6 +74,7 @@ Clock plan_clock(const Plan *plan, size_t stage) {
     const double tick = kind->tick(&at->dynamics.settings, &plan->system);
     const int64_t per_step = kind->ticks_per_step(&at->dynamics.settings);
     const double steps = rint(stage_time(at) / (tick * (double)per_step));
+    const bool goes_on = stage > 0 && drive_kinds(&at[-1].drive) & DRIVE_FLOW;
     ASSERT(steps * (double)per_step < TICKS_MOST);
     return (Clock){.tick = tick,
                    .flight_time = kind->flies ? kind->flight_time(&at->dynamics.settings) : NAN,
@@ -83,7 +84,8 @@ Clock plan_clock(const Plan *plan, size_t stage) {
                    .stage = at->name,
                    .flies = kind->flies,
                    .thermostatted = kind->thermostatted,
-                   .drive = drive_kinds(&at->drive) ? &at->drive : NULL};
+                   .drive = drive_kinds(&at->drive) ? &at->drive : NULL,
+                   .before = goes_on ? &at[-1].drive.flow : NULL};
 }
 
 static Status check_shapes(const System *system) {

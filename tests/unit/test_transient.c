@@ -40,9 +40,10 @@ static double waited(double t, double strain, bool displacements) {
                          : at_rest(t) * (ratio(t) + s * ratio_slope(t));
 }
 
-// A stage at rest (or one that only seems so) and a sheared one with waiting strains, every replica
-// alike but for a factor.
-static Results *relaxed(const char *observable, bool displacements, bool unsteady) {
+// A stage at rest (or one that only seems so, as `rate` says) and a sheared one (or one that goes
+// on from a flow) with waiting strains, every replica alike but for a factor.
+static Results *related(const char *observable, bool displacements, const char *stage,
+                        const char *rate) {
     static const char *const directions[] = {"y"}, *const species[] = {"small"};
     double times[LAGS], values[WAITS][LAGS];
     for (int k = 0; k < LAGS; k++) times[k] = 1e-3 * pow(10, 0.05 * k);
@@ -73,11 +74,15 @@ static Results *relaxed(const char *observable, bool displacements, bool unstead
         }
         ck_assert_int_eq(results_put_series(results, &sheared, r, &values[0][0]), OK);
         results_put_scalar(results, "shear", "shear_rate", "", "", r, RATE);
-        if (unsteady) results_put_scalar(results, "rest", "largest_shear_rate", "", "", r, RATE);
+        if (stage) results_put_scalar(results, stage, rate, "", "", r, RATE);
     }
     const System system = system_of(2, 100, 0.5, 1);
     ck_assert_int_eq(analysis_derive(results, &system), OK);
     return results;
+}
+
+static Results *relaxed(const char *observable, bool displacements) {
+    return related(observable, displacements, NULL, NULL);
 }
 
 static double element(const Results *results, const char *name, size_t at) {
@@ -98,7 +103,7 @@ static const char *const displacement[] = {"non_affine_displacement",
 
 START_TEST(the_transient_follows_from_what_has_waited) {
     const char *name = scattering[_i];
-    Results *results = relaxed(name, false, false);
+    Results *results = relaxed(name, false);
     ck_assert_double_eq(of_relation(results, name, "_strain", 0), 0);
     for (size_t w = 1; w < WAITS; w++) {
         ck_assert_double_eq_tol(of_relation(results, name, "_strain", w), BEST_STRAIN[w],
@@ -168,7 +173,7 @@ END_TEST
 
 START_TEST(so_do_displacements) {
     const char *name = displacement[_i];
-    Results *results = relaxed(name, true, false);
+    Results *results = relaxed(name, true);
     for (size_t w = 1; w < WAITS; w++) {
         ck_assert_double_eq_tol(of_relation(results, name, "_strain", w), BEST_STRAIN[w],
                                 0.02 * BEST_STRAIN[w]);
@@ -230,7 +235,7 @@ END_TEST
 
 // Where there are waiting strains, after the last of them.
 START_TEST(diffusion_across_the_flow_is_that_of_what_has_waited_longest) {
-    Results *results = relaxed("non_affine_displacement", true, false);
+    Results *results = relaxed("non_affine_displacement", true);
     const double last = waited(100, BEST_STRAIN[WAITS - 1], true);
     const double before = waited(50, BEST_STRAIN[WAITS - 1], true);
     const double slope = scalar_of(results, "shear", "long_time_diffusion_y");
@@ -261,18 +266,47 @@ START_TEST(an_unsteady_flow_has_no_long_time_diffusion) {
 }
 END_TEST
 
-// Nor does it stand in for the stage at rest.
-START_TEST(an_unsteady_flow_is_not_taken_for_rest) {
-    Results *results = relaxed("self_scattering", false, true);
-    ck_assert_ptr_null(results_find_series(results, "shear", "self_scattering_relation"));
-    results_free(results);
+// Nor does it stand in for the stage at rest; nor is what begins within a flow a transient.
+START_TEST(a_flow_is_not_taken_for_rest) {
+    static const char *const flows[][2] = {{"rest", "largest_shear_rate"},
+                                           {"shear", "shear_rate_before"}};
+    for (size_t i = 0; i < 2; i++) {
+        Results *results = related("self_scattering", false, flows[i][0], flows[i][1]);
+        ck_assert_ptr_null(results_find_series(results, "shear", "self_scattering_relation"));
+        results_free(results);
+    }
+}
+END_TEST
+
+START_TEST(a_flow_tells_from_which_it_goes_on) {
+    static const Drive drive = {.flow = {.rate = 0.1}};
+    static const Flow before = {.rate = -0.3};
+    System system = system_of(2, 50, 0.3, 1);
+    State *state = new_state(&system);
+    Clock clock = clock_of(1000, 1);
+    const Settings settings = settings_of(&observable_non_affine_displacement.options);
+    clock.drive = &drive;
+    for (int goes_on = 0; goes_on < 2; goes_on++) {
+        clock.before = goes_on ? &before : NULL;
+        Observer *observer =
+            new_observer(&observable_non_affine_displacement, &settings, state, &clock);
+        Results *results = written(observer, state);
+        ck_assert_double_eq(scalar_of(results, "quiescent", "shear_rate"), 0.1);
+        if (goes_on)
+            ck_assert_double_eq(scalar_of(results, "quiescent", "shear_rate_before"), 0.3);
+        else
+            ck_assert_ptr_null(results_find_scalar(results, "quiescent", "shear_rate_before"));
+        results_free(results);
+        observer->kind->free(observer);
+    }
+    state_free(state);
 }
 END_TEST
 
 // The transient of this file is a function of strain alone but for what it does at rest; between
 // lags a twentieth of a decade apart values are on straight lines in log t.
 START_TEST(a_steady_flow_has_its_functions_against_strain) {
-    Results *results = relaxed("self_scattering", false, false);
+    Results *results = relaxed("self_scattering", false);
     const ResultSeries *series = series_of(results, "shear", "self_scattering_against_strain");
     const ResultAxis *strain = &series->axis[series->axes - 1];
     ck_assert_str_eq(strain->name, "strain");
@@ -313,7 +347,8 @@ int main(void) {
     tcase_add_test(tests, diffusion_across_the_flow_is_a_slope);
     tcase_add_test(tests, diffusion_across_the_flow_is_that_of_what_has_waited_longest);
     tcase_add_test(tests, an_unsteady_flow_has_no_long_time_diffusion);
-    tcase_add_test(tests, an_unsteady_flow_is_not_taken_for_rest);
+    tcase_add_test(tests, a_flow_is_not_taken_for_rest);
+    tcase_add_test(tests, a_flow_tells_from_which_it_goes_on);
     tcase_add_test(tests, a_steady_flow_has_its_functions_against_strain);
     tcase_add_test(tests, a_compressed_exponential_is_found);
     suite_add_tcase(suite, tests);
