@@ -30,13 +30,16 @@ static Status reproduce(const Arguments *arguments) {
     Gallery gallery;
     TRY(gallery_find(&gallery));
     if (arguments->operands == 0) return gallery_list(&gallery, stdout);
+    char sentence[STATUS_SENTENCE_SIZE]; // of an entry: those after it may have others
     Status worst = OK;
     for (size_t i = 0; i < arguments->operands; i++) {
         const Status status = reproduce_entry(&gallery, arguments->operand[i], arguments);
         if (status != OK && status != UNHEALTHY) return status;
-        if (status != OK) worst = status; // a missed expectation does not keep others from theirs
+        if (status == OK) continue;
+        worst = status; // a missed expectation does not keep others from theirs
+        snprintf(sentence, sizeof sentence, "%s", status_sentence());
     }
-    return worst;
+    return worst == OK ? OK : status_fail(worst, "%s", sentence);
 }
 
 static const Flag flags[] = {

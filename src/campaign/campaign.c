@@ -118,16 +118,16 @@ static bool is_of_now(const Plan *plan, const Results *results) {
 
 // A simulation alone goes on from its last checkpoint, and what is derived of it is derived anew; a
 // theory has none when it has ended, and is done again by another program only.
-static bool may_stand(const Campaign *campaign, const Plan *plan, const Results *results) {
-    if (campaign->store) return true;
+static bool may_stand(const Campaign *campaign, const Results *results) {
     const char *commit = results_find_fact(results, "commit");
-    return plan_is_theory(plan) && commit && strcmp(commit, version_commit()) == 0;
+    return campaign->store || (commit && strcmp(commit, version_commit()) == 0);
 }
 
 static bool is_finished(Campaign *campaign, const Plan *plan, const char *folder) {
     Results *results = NULL;
+    if (!campaign->store && !plan_is_theory(plan)) return false;
     if (read_finished(&results, folder) != OK) return false;
-    const bool finished = may_stand(campaign, plan, results) && is_of_now(plan, results);
+    const bool finished = may_stand(campaign, results) && is_of_now(plan, results);
     if (finished && !campaign->store)
         campaign->results = results;
     else
