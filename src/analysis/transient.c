@@ -160,21 +160,21 @@ static double relate(Relation *relation, size_t row, size_t wait, int64_t withou
     return s * relation->rate;
 }
 
-// Pseudo-values of all replicas; `all` and `rest` have room for two predictions.
-static void derive_row(Relation *relation, size_t row, size_t wait, double *all[2],
-                       double *rest[2]) {
+// Pseudo-values of all replicas; `all` has room for two predictions.
+static void derive_row(Relation *relation, size_t row, size_t wait, double *all[2]) {
     const size_t replicas = relation->results->replicas, lags = relation->curves.lags;
     const size_t index = row * relation->waits + wait, count = relation->rows * relation->waits;
     const double strain = relate(relation, row, wait, NOBODY, all);
     for (size_t r = 0; r < replicas; r++) {
-        const double without = relate(relation, row, wait, (int64_t)r, rest);
-        relation->strain[r * count + index] = pseudo_value(replicas, strain, without);
-        for (size_t kind = 0; kind < 2; kind++) {
-            double *to = relation->predicted[kind] + (r * count + index) * lags;
-            for (size_t k = 0; k < lags; k++)
-                to[k] = pseudo_value(replicas, all[kind][k], rest[kind][k]);
-        }
+        const size_t at = r * count + index;
+        double *to[] = {relation->predicted[AS_WAITED] + at * lags,
+                        relation->predicted[BEST] + at * lags};
+        relation->strain[at] = relate(relation, row, wait, (int64_t)r, to);
     }
+    pseudo_values(replicas, strain, relation->strain + index, count);
+    for (size_t i = 0; i < 2 * lags; i++)
+        pseudo_values(replicas, all[i / lags][i % lags],
+                      relation->predicted[i / lags] + index * lags + i % lags, count * lags);
 }
 
 static Status put_series(Results *results, const ResultSeries *like, const char *name, size_t axes,
@@ -198,7 +198,7 @@ static Status put(Results *results, const Relation *relation) {
     return put_series(results, &like, "_relation_strain", like.axes - 1, relation->strain, size);
 }
 
-static Status allocate(Relation *relation, double *room[4]) {
+static Status allocate(Relation *relation, double *room[2]) {
     const size_t lags = relation->curves.lags;
     const size_t size = relation->results->replicas * relation->rows * relation->waits;
     double **curves[] = {&relation->curves.quiescent,
@@ -206,24 +206,20 @@ static Status allocate(Relation *relation, double *room[4]) {
                          &relation->curves.waited,
                          &relation->curves.predicted,
                          &room[0],
-                         &room[1],
-                         &room[2],
-                         &room[3]};
+                         &room[1]};
     for (size_t k = 0; k < sizeof curves / sizeof *curves; k++) TRY(NEW_ARRAY(*curves[k], lags));
     TRY(NEW_ARRAY(relation->predicted[AS_WAITED], size * lags));
     TRY(NEW_ARRAY(relation->predicted[BEST], size * lags));
     return NEW_ARRAY(relation->strain, size);
 }
 
-static void clear(Relation *relation, double *room[4]) {
+static void clear(Relation *relation, double *room[2]) {
     double *all[] = {relation->curves.quiescent,
                      relation->curves.transient,
                      relation->curves.waited,
                      relation->curves.predicted,
                      room[0],
                      room[1],
-                     room[2],
-                     room[3],
                      relation->predicted[AS_WAITED],
                      relation->predicted[BEST],
                      relation->strain};
@@ -267,10 +263,10 @@ Status derive_transient(Results *results, const ResultSeries *sheared) {
         .curves = {.lags = time->count,
                    .times = time->values,
                    .differences = strstr(sheared->observable, "displacement") != NULL}};
-    double *room[4] = {NULL, NULL, NULL, NULL};
+    double *room[2] = {NULL, NULL};
     Status status = allocate(&relation, room);
     for (size_t i = 0; status == OK && i < relation.rows * waits; i++) {
-        derive_row(&relation, i / waits, i % waits, room, room + 2);
+        derive_row(&relation, i / waits, i % waits, room);
     }
     if (status == OK) status = put(results, &relation);
     clear(&relation, room);

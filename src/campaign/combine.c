@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "base/number.h"
 #include "base/text.h"
+#include "store/store.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -28,15 +29,6 @@ static bool has_axis(const ResultSeries *series, const char *name) {
     return has;
 }
 
-// What stands beside the axes of a series in results.h5.
-static bool is_of_the_file(const char *name) {
-    static const char *const names[] = {"mean", "error", "replicas"};
-    bool is = false;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        is = is || strcmp(names[i], name) == 0;
-    return is;
-}
-
 // The whole key where its last word is the name of an axis of a series already, as `time` is. All
 // points have it as the first.
 static const char *name_of(const ConfigPoints *points, size_t k, const Results *all,
@@ -44,7 +36,7 @@ static const char *name_of(const ConfigPoints *points, size_t k, const Results *
     const SweepKey *key = config_sweep_key(points, k);
     if (all->series_count > 0)
         return strcmp(all->series[0].axis[k].name, key->path) == 0 ? key->path : key->name;
-    bool taken = is_of_the_file(key->name);
+    bool taken = store_keeps_name(key->name);
     for (size_t i = 0; i < one->series_count; i++)
         taken = taken || has_axis(&one->series[i], key->name);
     return taken ? key->path : key->name;

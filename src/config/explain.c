@@ -95,12 +95,6 @@ static bool lies_in(const char *path, const char *word) {
     return false;
 }
 
-// "itt.correlators" and "itt.correlators.times" begin "itt.correlators.times.first".
-static bool begins_path(const char *path, const char *word) {
-    const size_t length = strlen(word);
-    return strncmp(path, word, length) == 0 && (path[length] == '.' || path[length] == '\0');
-}
-
 // The section itself is asked for by the end of its path, "NAME" standing for any name.
 static bool names_section(const Section *section, const char *word) {
     const bool all_methods = strcmp(word, "dynamics") == 0 || strcmp(word, "method") == 0;
@@ -121,8 +115,8 @@ static bool explain_in_section(const Section *section, const char *word, FILE *o
     bool found = false;
     for (size_t i = 0; section->table && i < section->table->count; i++) {
         const Option *row = &section->table->rows[i];
-        const bool by_path =
-            strlen(word) > strlen(section->path) && begins_path(key_path(section, row).text, word);
+        const bool by_path = strlen(word) > strlen(section->path) &&
+                             section_begins(key_path(section, row).text, word);
         if (!by_path && !lies_in(row->name, word)) continue;
         explain_row(section, row, out);
         found = true;

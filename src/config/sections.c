@@ -134,12 +134,14 @@ Section section_at(size_t index) {
     return after_observables[index - observable_count()];
 }
 
+bool section_begins(const char *path, const char *part) {
+    const size_t length = strlen(part);
+    return strncmp(path, part, length) == 0 && (path[length] == '\0' || path[length] == '.');
+}
+
 static bool has_key(const OptionTable *table, const char *key) {
-    const size_t length = strlen(key);
     for (size_t i = 0; i < table->count; i++) {
-        const char *name = table->rows[i].name;
-        if (strncmp(name, key, length) == 0 && (name[length] == '\0' || name[length] == '.'))
-            return true;
+        if (section_begins(table->rows[i].name, key)) return true;
     }
     return false;
 }

@@ -33,6 +33,9 @@ Section section_at(size_t index);
 // of the same name, and none was meant.
 bool section_of_key(const char *key, const OptionTable *table, char home[SECTION_HOME_SIZE]);
 
+// "itt.correlators" and "itt.correlators.times" begin "itt.correlators.times.first".
+bool section_begins(const char *path, const char *part);
+
 // The unit of the key at a path, "protocol.flow.shear_rate"; "" for a pure number or no key.
 const char *section_unit(const char *path);
 

@@ -56,6 +56,10 @@ static Status write_estimates(hid_t group, const Results *results, const ResultS
     return write_values(group, "replicas", series, &all, series->values);
 }
 
+bool store_keeps_name(const char *name) {
+    return strcmp(name, "mean") == 0 || strcmp(name, "error") == 0 || strcmp(name, "replicas") == 0;
+}
+
 static Status write_series_into(hid_t group, const Results *results, const ResultSeries *series) {
     const char *names[RESULT_AXES];
     TRY(image_text_attribute(group, "unit", series->unit));

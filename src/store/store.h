@@ -37,6 +37,9 @@ Status store_log(Store *store, const char *format, ...) __attribute__((format(pr
 // results.h5: the same bytes for the same contents.
 Status store_write_results(Store *store, const Results *results);
 
+// Whether a series has this beside its axes in results.h5, so that none of them can be called so.
+bool store_keeps_name(const char *name);
+
 // Reads a results.h5 of ours, no matter who sends it: BAD_DATA with a sentence unless it is whole.
 Status store_read_results(Results **out, const char *path);
 

@@ -82,9 +82,8 @@ reference() {
 # part SHARE: that share of the duration.
 part() { awk -v d="$duration" -v share="$1" 'BEGIN { print d * share }'; }
 
-# catches PROCESS: waits until it catches SIGTERM, as the program does from its beginning on; on a busy
-# machine that comes later than one thinks.
-catches() {
+# await_handler PROCESS: waits until it would catch SIGTERM; on a busy machine a program begins late.
+await_handler() {
     while mask=$(sed -n '/^State:.*Z/q; s/^SigCgt:[^0-9a-f]*//p' "/proc/$1/status" 2>/dev/null) &&
         [ -n "$mask" ] && [ $((0x$mask & 0x4000)) -eq 0 ]; do
         sleep 0.01

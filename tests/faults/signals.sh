@@ -15,7 +15,7 @@ interrupt() { # SIGNAL
     rm -rf "$work/run"
     launch "$work/run" >"$work/out" 2>&1 &
     process=$!
-    catches $process
+    await_handler $process
     pause 0.05 "$(part 0.8)"
     from=$(milliseconds)
     kill -"$1" $process 2>/dev/null
@@ -42,7 +42,7 @@ done
 rm -rf "$work/run"
 launch "$work/run" >"$work/out" 2>&1 &
 process=$!
-catches $process
+await_handler $process
 for i in 1 2 3; do
     pause 0.05 "$(part 0.25)"
     kill -USR2 $process 2>/dev/null

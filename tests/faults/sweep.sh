@@ -35,7 +35,7 @@ while [ $round -le "$ROUNDS" ]; do
     for signal in TERM KILL INT; do
         launch "$work/run" >"$work/out" 2>&1 &
         process=$!
-        catches $process
+        await_handler $process
         pause 0.05 "$(part 0.4)"
         kill -$signal $process 2>/dev/null
         code=0

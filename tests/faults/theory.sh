@@ -24,7 +24,7 @@ while [ $round -le "$ROUNDS" ]; do
         rm -rf "$work/run"
         launch "$work/run" >"$work/out" 2>&1 &
         process=$!
-        catches $process
+        await_handler $process
         pause 0.05 "$(part 0.4)"
         [ $signal = KILL ] && kill -USR2 $process 2>/dev/null # a checkpoint, and go on
         pause 0.05 "$(part 0.4)"
@@ -71,7 +71,7 @@ theory:
 END
 launch "$work/rest" >"$work/out" 2>&1 &
 process=$!
-catches $process
+await_handler $process
 sleep 0.5
 kill -TERM $process
 code=0

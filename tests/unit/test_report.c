@@ -797,11 +797,12 @@ START_TEST(flows_both_ways_are_drawn_on_plain_axes) {
             .observable = "shear_stress",
             .unit = "kT/d^2",
             .axes = 1,
-            .axis = {{.name = "shear_rate", .unit = "", .count = 2, .values = rates}}};
+            .axis = {{.name = "shear_rate", .unit = "D0/d^2", .count = 2, .values = rates}}};
         Results *results = NULL;
         ck_assert_int_eq(results_create(&results, 1), OK);
         results_put_series(results, &shape, 0, stresses);
         Text script = script_of(results);
+        ck_assert_ptr_nonnull(strstr(text_words(&script), "set xlabel 'γ̇  [D₀/d²]'"));
         ck_assert_int_eq(strstr(text_words(&script), "set logscale x") == NULL, backwards);
         ck_assert_int_eq(strstr(text_words(&script), "set logscale y") == NULL, backwards);
         text_free(&script);
